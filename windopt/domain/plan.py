@@ -1,0 +1,158 @@
+"""Plans: what the turbines and the UAVs are told to do."""
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+import numpy as np
+
+from windopt.domain.farm import Farm
+from windopt.domain.fleet import Fleet
+from windopt.domain.wind import Wind, WindForecast
+from windopt.result import Result
+
+
+class SpeedRule(StrEnum):
+    """How the wind bends the speed over ground.
+
+    EXACT is the fastest the wind triangle allows; PAPER is the paper's own rule, which flies at
+    full speed over ground in any tail wind.
+    """
+
+    EXACT = "exact"
+    PAPER = "paper"
+
+
+@dataclass(frozen=True)
+class SetPoint:
+    """What one turbine is told.
+
+    Parameters
+    ----------
+    turbine
+        Its name.
+    nacelle
+        Direction the nacelle faces, clockwise from north [rad].
+    misalignment
+        Wind direction minus nacelle direction [rad], FLORIS's sign, in [-pi, pi).
+    pitch
+        Blade pitch beta [rad].
+    tip_speed_ratio
+        Lambda [-].
+    wind_speed
+        Wind speed at the rotor [m/s].
+    power
+        Power delivered [W].
+    maximum
+        The most any set-point delivers in this wind [W], certified.
+    """
+
+    turbine: str
+    nacelle: float
+    misalignment: float
+    pitch: float
+    tip_speed_ratio: float
+    wind_speed: float
+    power: float
+    maximum: float
+
+
+@dataclass(frozen=True)
+class YawPlan:
+    """Set-points of all turbines in one steady wind.
+
+    Parameters
+    ----------
+    power_baseline
+        Power of the farm with every nacelle facing the wind [W].
+    air_density
+        Rho [kg/m3].
+    """
+
+    farm: Farm
+    wind: Wind
+    set_points: tuple[SetPoint, ...]
+    power_baseline: float
+    air_density: float
+
+    @property
+    def power(self) -> float:
+        """Power of the farm [W]."""
+        return sum(point.power for point in self.set_points)
+
+
+@dataclass(frozen=True)
+class Flight:
+    """One flight: from its station along the turbines, in order, and back.
+
+    Parameters
+    ----------
+    station
+        Name of the station it starts from and returns to.
+    uav
+        Make of the UAV.
+    turbines
+        Names of the turbines, in order.
+    duration
+        From take-off to landing, inspections included [s].
+    """
+
+    station: str
+    uav: str
+    turbines: tuple[str, ...]
+    duration: float
+
+
+@dataclass(frozen=True)
+class Unreachable:
+    """A turbine that no UAV can inspect, and why."""
+
+    turbine: str
+    reason: str
+
+
+@dataclass(frozen=True)
+class InspectionPlan:
+    """Flights that visit every turbine within reach once, in one steady wind.
+
+    Parameters
+    ----------
+    dwell
+        Time spent at each turbine [s], in the farm's order.
+    rule
+        How the wind bends the speed over ground.
+    unreachable
+        The turbines left out.
+    """
+
+    farm: Farm
+    fleet: Fleet
+    wind: Wind
+    dwell: tuple[float, ...]
+    flights: tuple[Flight, ...]
+    unreachable: tuple[Unreachable, ...] = ()
+    rule: SpeedRule = SpeedRule.EXACT
+
+    @property
+    def duration(self) -> float:
+        """Time of all flights together [s]."""
+        return sum(flight.duration for flight in self.flights)
+
+
+@dataclass(frozen=True)
+class Plan:
+    """The whole answer: a forecast, set-points for each of its steps, and flights.
+
+    Parameters
+    ----------
+    time
+        When the plan was made, on the series' own clock.
+    yaw
+        Set-points for each step of the forecast.
+    inspection
+        Flights for the forecast's mean wind.
+    """
+
+    time: np.datetime64
+    forecast: WindForecast
+    yaw: tuple[Result[YawPlan], ...]
+    inspection: Result[InspectionPlan]

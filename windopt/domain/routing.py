@@ -1,0 +1,76 @@
+"""The inspection problem in numbers: what every routing method takes and returns."""
+
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from windopt.errors import InvalidInput
+
+
+class Route(NamedTuple):
+    """One flight in numbers: its station, and the turbines it visits in order, from 0."""
+
+    station: int
+    turbines: tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class RoutingInstance:
+    """k stations, n turbines, and the time between them under one wind.
+
+    Parameters
+    ----------
+    t
+        ``t[d, i, j]``: time [s] that the UAV of station d needs from leaving i until it is
+        done at j, inspection included; shape ``(k, n + 1, n + 1)``. Node 0 is the station,
+        node i the i-th turbine; ``inf`` where the leg cannot be flown.
+    t_max
+        Longest flight of each station's UAV [s], shape ``(k,)``.
+    stations, turbines
+        Positions [m], shapes ``(k, 2)`` and ``(n, 2)``.
+    w
+        Velocity of the air [m/s], shape ``(2,)``.
+    allowed
+        Whether station d may serve turbine i, shape ``(k, n)``.
+    """
+
+    t: NDArray[np.float64]
+    t_max: NDArray[np.float64]
+    stations: NDArray[np.float64]
+    turbines: NDArray[np.float64]
+    w: NDArray[np.float64]
+    allowed: NDArray[np.bool_]
+
+    def __post_init__(self) -> None:
+        k, n = len(self.stations), len(self.turbines)
+        for field, array, shape in (
+            ("t", self.t, (k, n + 1, n + 1)),
+            ("t_max", self.t_max, (k,)),
+            ("allowed", self.allowed, (k, n)),
+        ):
+            if array.shape != shape:
+                raise InvalidInput(field, f"of shape {shape}", array.shape)
+        if np.isnan(self.t).any() or (self.t < 0).any():
+            raise InvalidInput("t", ">= 0", "a negative or missing time")
+
+    @property
+    def round_trip(self) -> NDArray[np.float64]:
+        """Time of the flight that visits one turbine only [s], shape ``(k, n)``."""
+        return self.t[:, 0, 1:] + self.t[:, 1:, 0]
+
+    @property
+    def reachable(self) -> NDArray[np.bool_]:
+        """Whether station d can inspect turbine i and be back in time, shape ``(k, n)``."""
+        return self.allowed & (self.round_trip <= self.t_max[:, None])
+
+    def duration(self, route: Route) -> float:
+        """Time from take-off to landing [s]."""
+        nodes = (0, *(i + 1 for i in route.turbines), 0)
+        return float(sum(self.t[route.station, i, j] for i, j in pairwise(nodes)))
+
+    def total(self, routes: tuple[Route, ...]) -> float:
+        """Time of all flights together [s]."""
+        return sum(self.duration(route) for route in routes)

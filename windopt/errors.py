@@ -1,0 +1,29 @@
+"""What windopt says when an input cannot be used."""
+
+
+class InvalidInput(ValueError):  # noqa: N818  (it is a ValueError, and reads as one)
+    """An input that cannot be used: which field, what was expected and what came.
+
+    Parameters
+    ----------
+    field
+        Name of the offending field, as the user knows it: a column, a key, an option.
+    expected
+        What would have been accepted, as the end of "Expected <field> ...".
+    got
+        What came instead.
+    """
+
+    def __init__(self, field: str, expected: str, got: object) -> None:
+        super().__init__(f"Expected {field} {expected}, got {got}.")
+        self.field = field
+        self.expected = expected
+        self.got = got
+
+
+class MissingExtra(ImportError):  # noqa: N818
+    """An optional dependency that is not installed, and the command that installs it."""
+
+    def __init__(self, feature: str, extra: str) -> None:
+        super().__init__(f"{feature} needs an extra: pip install 'windopt[{extra}]'.")
+        self.extra = extra

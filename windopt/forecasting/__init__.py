@@ -1,0 +1,1 @@
+"""Forecasters of the wind over the next minutes, behind one interface."""

@@ -1,0 +1,1 @@
+"""The paper's algorithms and their baseline, beside the exact methods they rival."""

@@ -1,0 +1,1 @@
+"""The only translation: domain objects to arrays, to programs, to plans."""
