@@ -92,6 +92,8 @@ class Flight:
         Make of the UAV.
     turbines
         Names of the turbines, in order.
+    legs
+        Time of each leg [s], the first from the station and the last back to it.
     duration
         From take-off to landing, inspections included [s].
     """
@@ -99,6 +101,7 @@ class Flight:
     station: str
     uav: str
     turbines: tuple[str, ...]
+    legs: tuple[float, ...]
     duration: float
 
 
