@@ -196,6 +196,8 @@ class WindForecast:
         Where it will blow from, clockwise from north [rad], shape ``(H,)``.
     method
         Name of the forecaster.
+    notes
+        What was assumed to make the forecast, one sentence each.
     """
 
     issued: np.datetime64
@@ -203,6 +205,7 @@ class WindForecast:
     speed: Floats
     theta_met: Floats
     method: str
+    notes: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         if not len(self.time) == len(self.speed) == len(self.theta_met) > 0:

@@ -1,1 +1,1 @@
-"""Forecasters of the wind over the next minutes, behind one interface."""
+"""Forecasting the next 40 minutes of wind from the last two hours."""
