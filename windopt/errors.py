@@ -27,3 +27,11 @@ class MissingExtra(ImportError):  # noqa: N818
     def __init__(self, feature: str, extra: str) -> None:
         super().__init__(f"{feature} needs an extra: pip install 'windopt[{extra}]'.")
         self.extra = extra
+
+
+class FailedCheck(RuntimeError):  # noqa: N818
+    """A plan that its maker held to be sound and the independent checker does not."""
+
+    def __init__(self, violations: tuple[str, ...]) -> None:
+        super().__init__("The plan fails its check and is withheld: " + "; ".join(violations[:5]))
+        self.violations = violations

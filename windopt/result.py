@@ -86,3 +86,7 @@ class Result(Generic[Solution]):
     def carrying(self, solution: Other | None) -> "Result[Other]":
         """Return the same outcome with ``solution`` in place of this one's."""
         return replace(self, solution=solution)  # type: ignore[type-var,return-value]
+
+    def timed(self, runtime: float) -> "Result[Solution]":
+        """Return the same outcome with ``runtime`` [s] in place of this one's."""
+        return replace(self, runtime=runtime)

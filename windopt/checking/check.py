@@ -1,0 +1,75 @@
+"""The one door of the checker: any plan, with or without the promises of its result."""
+
+from collections.abc import Iterator
+from math import isclose, isfinite, isnan
+from typing import Any
+
+from windopt.checking.inspection import check_inspection
+from windopt.checking.report import Report
+from windopt.checking.yaw import check_yaw
+from windopt.domain.plan import InspectionPlan, Plan, YawPlan
+from windopt.result import Result, Status
+
+Checkable = Plan | InspectionPlan | YawPlan | Result[InspectionPlan] | Result[YawPlan]
+
+TOLERANCE = 1e-6
+"""Relative; the accuracy to which solvers keep their own constraints."""
+
+
+def check(plan: Checkable) -> Report:
+    """Recompute a plan and list every violation.
+
+    Parameters
+    ----------
+    plan
+        Flights, set-points, or both. Of a result the promises are checked too: that the
+        objective is what the plan costs or yields, and that the bound does bound it.
+    """
+    if isinstance(plan, Plan):
+        return _check_steps(plan)
+    if isinstance(plan, Result):
+        return _check_result(plan)
+    return check_inspection(plan) if isinstance(plan, InspectionPlan) else check_yaw(plan)
+
+
+def _check_result(result: Result[Any]) -> Report:
+    if result.solution is None:
+        return Report((f"there is no plan to check: {result.reason or result.status.sentence}",))
+    return check(result.solution) + Report(tuple(_promises(result)))
+
+
+def _promises(result: Result[Any]) -> Iterator[str]:
+    """Objective, bound and status, against the plan and each other."""
+    plan = result.found()
+    flights = isinstance(plan, InspectionPlan)
+    value = plan.duration if flights else plan.power
+    if not isclose(result.objective, value, rel_tol=TOLERANCE, abs_tol=TOLERANCE):
+        yield f"the objective is said to be {result.objective:.9g}, the plan's is {value:.9g}"
+    slack = TOLERANCE * max(1.0, abs(value))
+    overstated = result.bound - value if flights else value - result.bound
+    if isnan(result.bound) or overstated > slack:
+        yield f"the bound of {result.bound:.9g} does not bound the objective of {value:.9g}"
+    if result.status is Status.OPTIMAL and not isfinite(result.bound):
+        yield "the plan is called optimal without a bound"
+    if result.status in {Status.INFEASIBLE, Status.NO_SOLUTION}:
+        yield f"there is a plan, but the status is {result.status}"
+
+
+def _check_steps(plan: Plan) -> Report:
+    """Check the whole answer: set-points for each step of the forecast, and the flights."""
+    report = _check_result(plan.inspection).about("inspection")
+    if len(plan.yaw) != len(plan.forecast):
+        sentence = f"{len(plan.yaw)} yaw steps for {len(plan.forecast)} steps of the forecast"
+        report += Report((sentence,))
+    for time, wind, yaw in zip(plan.forecast.time, plan.forecast.winds, plan.yaw, strict=False):
+        report += _check_result(yaw).about(f"yaw at {time}")
+        if yaw.solution and not _same(yaw.solution.wind.velocity, wind.velocity):
+            report += Report((f"yaw at {time}: the wind is not that of the forecast",))
+    flown = plan.inspection.solution
+    if flown and not _same(flown.wind.velocity, plan.forecast.mean.velocity):
+        report += Report(("inspection: the wind is not the forecast's mean",))
+    return report
+
+
+def _same(one: Any, other: Any) -> bool:
+    return all(isclose(a, b, rel_tol=1e-9, abs_tol=1e-9) for a, b in zip(one, other, strict=True))
