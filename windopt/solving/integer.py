@@ -1,0 +1,246 @@
+"""Integer programs through HiGHS, with rows added as solutions violate them.
+
+HiGHS calls no one back for lazy constraints (its enumeration names such a callback, and nothing
+fires it), so rows are added between solves, in two stages:
+
+1. the linear relaxation, where a solve is cheap, until it keeps every row;
+2. the integer program, until its optimum keeps every row.
+
+A program with fewer rows has no worse an optimum, so the bound of every solve is valid, and the
+best is kept. A solution is kept only if it breaks no row, left out or not; those that HiGHS
+meets on its way are checked too, so that a limit or Ctrl-C still leaves a plan.
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from itertools import takewhile
+from math import inf
+from time import perf_counter
+from typing import Protocol
+
+import highspy
+import numpy as np
+from highspy.highs import HighspyArray, highs_linear_expression
+from numpy.typing import NDArray
+from scipy.sparse import csc_array, csr_array
+
+from windopt.result import Result, Status
+from windopt.solving.watched import News, run
+
+HIGHS = highspy.HighsModelStatus
+TOLERANCE = 1e-5  # Ten times HiGHS's own, which it applies to a scaled and presolved program.
+RELAXATION_SHARE = 0.5  # Part of the time limit after which a plan matters more than the bound.
+
+Progress = Callable[[float, float], None]
+
+
+class IntegerProgram(Protocol):
+    """A HiGHS model to be minimised, its decisions, and the rows left out of it."""
+
+    @property
+    def model(self) -> highspy.Highs: ...
+
+    @property
+    def x(self) -> HighspyArray: ...
+
+    @property
+    def start(self) -> NDArray[np.float64] | None:
+        """Values of ``x`` to begin with, feasible or not."""
+
+    def cuts(self, x: NDArray[np.float64]) -> Iterator[highs_linear_expression]:
+        """Yield the rows that ``x`` violates."""
+
+
+def solve(
+    program: IntegerProgram,
+    *,
+    gap: float = 0.0,
+    time_limit: float = 60.0,
+    seed: int = 0,
+    threads: int = 1,
+    start: NDArray[np.float64] | None = None,
+    progress: Progress | None = None,
+) -> Result[NDArray[np.float64]]:
+    """Minimise ``program``; the solution is the array of its ``x``.
+
+    Rows that were found to be violated stay in ``program.model``.
+
+    Parameters
+    ----------
+    gap
+        Relative gap at which to stop [-].
+    time_limit
+        Wall-clock limit over all rounds [s].
+    seed, threads
+        Passed to HiGHS; with one thread the same inputs give the same answer.
+    start
+        Values of ``x`` to begin with instead of ``program.start``.
+    progress
+        Called with the best objective and bound so far whenever one of them improves.
+    """
+    model = program.model
+    model.silent()
+    model.setOptionValue("mip_rel_gap", gap)
+    model.setOptionValue("mip_abs_gap", 0.0)
+    model.setOptionValue("random_seed", seed)
+    model.setOptionValue("threads", threads)
+
+    search = _Search(program, time_limit, progress)
+    try:
+        search.relax()
+        search.branch(program.start if start is None else start)
+    except KeyboardInterrupt:
+        search.interrupted = True
+    return search.result()
+
+
+@dataclass
+class _Search:
+    """The rounds on one program, and the best solution and bound they have given so far."""
+
+    program: IntegerProgram
+    time_limit: float
+    progress: Progress | None
+    began: float = field(default_factory=perf_counter)
+    x: NDArray[np.float64] | None = None
+    objective: float = inf
+    bound: float = -inf
+    proof: str = ""
+    reason: str = ""
+    optimal: bool = False
+    infeasible: bool = False
+    interrupted: bool = False
+
+    def __post_init__(self) -> None:
+        lp = self.program.model.getLp()
+        self.cost, self.offset = np.asarray(lp.col_cost_), lp.offset_
+        self.whole = np.array(
+            [kind != highspy.HighsVarType.kContinuous for kind in lp.integrality_]
+        )
+        self.column = np.array([v.index for v in self.program.x.flat], dtype=np.int32)
+
+    def relax(self) -> None:
+        """Solve the relaxation until it keeps every row or has had its share of the time."""
+        model, limit = self.program.model, RELAXATION_SHARE * self.time_limit
+        model.setOptionValue("solve_relaxation", True)
+        while self._run(limit) == HIGHS.kOptimal:
+            self._raise_bound(model.getInfo().objective_function_value, "linear relaxation")
+            if not self._add_violated(self._values(), limit):
+                break
+
+    def branch(self, start: NDArray[np.float64] | None) -> None:
+        """Solve the integer program until its optimum keeps every row."""
+        model = self.program.model
+        model.setOptionValue("solve_relaxation", False)
+        while not self.infeasible:
+            if (begin := start if self.x is None else self.x) is not None:
+                model.setSolution(self.column.size, self.column, np.ravel(begin).astype(float))
+            status = self._run(self.time_limit)
+            if status not in (HIGHS.kOptimal, HIGHS.kTimeLimit, HIGHS.kInterrupt):
+                break
+            self._raise_bound(model.getInfo().mip_dual_bound, "branch and cut")
+            if status != HIGHS.kOptimal:
+                break
+            values = self._rounded(self._values())
+            if not self._add_violated(values, self.time_limit):
+                self._keep(values)
+                self.optimal = self.x is not None
+                break
+
+    def result(self) -> Result[NDArray[np.float64]]:
+        """Return what is known, in windopt's words."""
+        runtime = perf_counter() - self.began
+        if self.infeasible:
+            return Result(Status.INFEASIBLE, None, inf, inf, runtime, self.proof, self.reason)
+        if self.optimal:
+            status = Status.OPTIMAL
+        elif self.interrupted:
+            status = Status.INTERRUPTED
+        else:
+            status = Status.NO_SOLUTION if self.x is None else Status.FEASIBLE
+        bound = min(self.bound, self.objective)
+        return Result(status, self.x, self.objective, bound, runtime, self.proof, self.reason)
+
+    def _run(self, limit: float) -> highspy.HighsModelStatus:
+        """Run HiGHS until ``limit`` at most, and return how it ended."""
+        model = self.program.model
+        if self.interrupted or self._left(limit) <= 0.0:
+            return HIGHS.kTimeLimit
+        model.setOptionValue("time_limit", self._left(limit))
+        self.interrupted = run(model, self._hear)
+        status: highspy.HighsModelStatus = model.getModelStatus()
+        self.infeasible |= status == HIGHS.kInfeasible
+        if status not in (HIGHS.kOptimal, HIGHS.kTimeLimit, HIGHS.kInterrupt):
+            self.reason = f"HiGHS ended with: {model.modelStatusToString(status)}."
+        return status
+
+    def _hear(self, news: News) -> None:
+        """Take in what HiGHS has found so far."""
+        self._raise_bound(news.bound, "branch and cut")
+        if news.values is not None:
+            values = self._rounded(news.values)
+            if next(self.program.cuts(self._x(values)), None) is None:
+                self._keep(values)
+
+    def _raise_bound(self, bound: float, proof: str) -> None:
+        if bound > self.bound:
+            self.bound, self.proof = bound, f"HiGHS, {proof}"
+            self._report()
+
+    def _keep(self, values: NDArray[np.float64]) -> None:
+        """Keep a solution that breaks no row left out, if it breaks none of the others either."""
+        if (violation := largest_violation(self.program.model, values)) > TOLERANCE:
+            self.reason = f"HiGHS returned a solution that breaks a row by {violation:.2g}."
+            return
+        objective = float(self.cost @ values) + self.offset
+        if objective < self.objective:
+            self.objective, self.x, self.reason = objective, self._x(values), ""
+            self._report()
+
+    def _report(self) -> None:
+        if self.progress is not None:
+            self.progress(self.objective, self.bound)
+
+    def _add_violated(self, values: NDArray[np.float64], limit: float) -> int:
+        """Add the rows that ``values`` break, as far as time allows, and return how many."""
+        rows = list(
+            takewhile(lambda _: self._left(limit) > 0.0, self.program.cuts(self._x(values)))
+        )
+        self.program.model.addConstrs(rows)
+        return len(rows)
+
+    def _values(self) -> NDArray[np.float64]:
+        return np.asarray(self.program.model.getSolution().col_value)
+
+    def _rounded(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
+        return np.where(self.whole, np.rint(values), values)
+
+    def _x(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the values of ``x`` among those of all columns."""
+        return values[self.column].reshape(self.program.x.shape)
+
+    def _left(self, limit: float) -> float:
+        """Return the time left until ``limit`` [s]."""
+        return self.began + limit - perf_counter()
+
+
+def largest_violation(model: highspy.Highs, values: NDArray[np.float64]) -> float:
+    """Return by how much ``values`` break a row or a bound of ``model`` at worst.
+
+    Parameters
+    ----------
+    values
+        Value of every column.
+    """
+    lp = model.getLp()
+    matrix = lp.a_matrix_
+    form = csr_array if matrix.format_ == highspy.MatrixFormat.kRowwise else csc_array
+    A = form((matrix.value_, matrix.index_, matrix.start_), shape=(lp.num_row_, lp.num_col_))
+    row = A @ values
+    excess = (
+        np.asarray(lp.row_lower_) - row,
+        row - np.asarray(lp.row_upper_),
+        np.asarray(lp.col_lower_) - values,
+        values - np.asarray(lp.col_upper_),
+    )
+    return max(float(e.max(initial=0.0)) for e in excess)
