@@ -1,0 +1,98 @@
+"""How Sphinx builds these pages: ``sphinx-build -W -n -b html docs docs/_build/html``."""
+
+import os
+from pathlib import Path
+from typing import Any
+
+import matplotlib
+from docutils.nodes import Node
+from sphinx.addnodes import pending_xref
+from sphinx.application import Sphinx
+from sphinx.environment import BuildEnvironment
+from typer.testing import CliRunner
+
+import windopt
+
+os.environ["PYTHONHASHSEED"] = "0"
+matplotlib.use("agg")
+
+project = "windopt"
+author = "The windopt developers"
+copyright = f"2026, {author}"
+release = version = windopt.__version__
+
+extensions = [
+    "matplotlib.sphinxext.plot_directive",
+    "numpydoc",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.autosummary",
+    "sphinx.ext.doctest",
+    "sphinx_gallery.gen_gallery",
+]
+exclude_patterns = ["_build", "examples", "how_to/files"]
+templates_path = ["_templates"]
+
+autodoc_preserve_defaults = True
+autodoc_member_order = "bysource"
+numpydoc_show_class_members = False  # autodoc lists them already
+
+plot_html_show_formats = False
+plot_html_show_source_link = False
+plot_formats = [("png", 120)]
+
+sphinx_gallery_conf = {
+    "examples_dirs": "examples",
+    "gallery_dirs": "tutorials",
+    "abort_on_example_error": True,
+    "download_all_examples": False,
+    "write_computation_times": False,
+    "show_signature": False,
+}
+
+html_theme = "pydata_sphinx_theme"
+html_theme_options = {
+    "navbar_end": ["theme-switcher"],
+    "secondary_sidebar_items": ["page-toc"],
+    "show_prev_next": False,
+}
+html_show_sourcelink = False
+
+# Names of other packages that stand in our signatures; their pages are not fetched, so that the
+# build needs no network.
+nitpick_ignore_regex = [
+    (r"py:.*", r"(numpy|np|highspy|casadi|ca|matplotlib|typer|pathlib|collections|enum)\..*"),
+    (r"py:.*", r"(NDArray|HighspyArray|highs_linear_expression|Axes|Path|Iterator|StrEnum)"),
+]
+
+
+def write_command_line(app: Sphinx) -> None:
+    """Write the page of commands from what each command's ``--help`` says."""
+    from windopt.cli import app as commands
+
+    def help_of(*command: str) -> str:
+        environment = {"COLUMNS": "90", "NO_COLOR": "1", "TERM": "dumb"}
+        return CliRunner().invoke(commands, [*command, "--help"], env=environment).output
+
+    names = [command.name or command.callback.__name__ for command in commands.registered_commands]
+    page = Path(app.srcdir, "reference", "generated", "command_line.txt")
+    page.parent.mkdir(exist_ok=True)
+    page.write_text("\n".join([help_of(), *(help_of(name) for name in names)]), encoding="utf-8")
+
+
+def resolve_public_name(
+    app: Sphinx, env: BuildEnvironment, node: pending_xref, contnode: Node
+) -> Any:
+    """Link ``windopt.Farm`` to where Farm is described, ``windopt.domain.farm.Farm``."""
+    package, _, path = node.get("reftarget", "").partition(".")
+    name = path.partition(".")[0]
+    if package != "windopt" or name not in windopt.__all__:
+        return None
+    target = f"{getattr(windopt, name).__module__}.{path}"
+    python = env.domains.python_domain
+    return python.resolve_xref(env, node["refdoc"], app.builder, "obj", target, node, contnode)
+
+
+def setup(app: Sphinx) -> None:
+    """Connect the two functions above."""
+    app.connect("builder-inited", write_command_line)
+    app.connect("missing-reference", resolve_public_name)
