@@ -1,0 +1,129 @@
+"""Where UAVs are stationed and which turbines each looks after, before the wind is known.
+
+The paper takes both from Chung et al. (2021, *IEEE Trans. Ind. Informat.* 17, 3032-3043), of which
+it says no more than k-means clustering and a non-linear integer program. Here the stations are the
+centres of k-means clusters, and the integer program is a linear one, since the stations then
+stand still: least total distance, with at most a given number of turbines to each UAV.
+"""
+
+from math import inf
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import linear_sum_assignment
+
+from windopt.domain.routing import RoutingInstance
+from windopt.errors import InvalidInput
+
+STARTS = 10  # Usual number of restarts; k-means ends in a local optimum.
+ROUNDS = 300  # Lloyd's method settles in a few dozen; this only bounds it.
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.intp]
+
+
+def place_stations(turbines: Floats, k: int, *, seed: int = 0) -> Floats:
+    """Place k stations at the centres of k-means clusters of the turbines.
+
+    Lloyd's method from k-means++ seeds (Arthur & Vassilvitskii 2007, *Proc. SODA*, 1027-1035), the
+    best of ten starts.
+
+    Parameters
+    ----------
+    turbines
+        Positions [m], shape ``(n, 2)``.
+    k
+        How many stations, 1 to n.
+
+    Returns
+    -------
+    NDArray
+        Positions of the stations [m], shape ``(k, 2)``.
+
+    Raises
+    ------
+    InvalidInput
+        If ``k`` is not between 1 and n.
+    """
+    if not 1 <= k <= len(turbines):
+        raise InvalidInput("k", f"between 1 and {len(turbines)}", k)
+    rng = np.random.default_rng(seed)
+    best, least = turbines[:k], inf
+    for _ in range(STARTS):
+        centres = _lloyd(turbines, _seeds(turbines, k, rng))
+        spread = float(_squared_distances(turbines, centres).min(axis=1).sum())
+        if spread < least:
+            best, least = centres, spread
+    return best
+
+
+def distances(instance: RoutingInstance) -> Floats:
+    """Return the distance of each station from each turbine [m], shape ``(k, n)``."""
+    return np.sqrt(_squared_distances(instance.stations, instance.turbines))
+
+
+def nearest_stations(instance: RoutingInstance) -> Ints:
+    """Assign each turbine to the nearest station, which is its k-means cluster.
+
+    Returns
+    -------
+    NDArray
+        The station of each turbine, shape ``(n,)``.
+    """
+    nearest: Ints = distances(instance).argmin(axis=0)
+    return nearest
+
+
+def balanced_stations(instance: RoutingInstance, capacity: int) -> Ints:
+    """Assign turbines to stations at the least total distance, with a limit for each station.
+
+    Parameters
+    ----------
+    capacity
+        The most turbines one station looks after.
+
+    Returns
+    -------
+    NDArray
+        The station of each turbine, shape ``(n,)``.
+
+    Raises
+    ------
+    InvalidInput
+        If the capacities together fall short of the number of turbines.
+    """
+    k, n = instance.allowed.shape
+    if k * capacity < n:
+        raise InvalidInput("capacity", f"at least {-(-n // k)} for {n} turbines", capacity)
+    places = np.repeat(np.arange(k), capacity)
+    place, turbine = linear_sum_assignment(distances(instance)[places])
+    return places[place[np.argsort(turbine)]]
+
+
+def _seeds(points: Floats, k: int, rng: np.random.Generator) -> Floats:
+    """Draw k of the points, each with chance in proportion to its squared distance from those."""
+    centres = points[rng.integers(len(points), size=1)]
+    while len(centres) < k:
+        weight = _squared_distances(points, centres).min(axis=1)
+        if not weight.any():
+            weight[:] = 1.0  # Every point is a centre already: turbines stand on one another.
+        chosen = rng.choice(len(points), p=weight / weight.sum())
+        centres = np.vstack([centres, points[chosen]])
+    return centres
+
+
+def _lloyd(points: Floats, centres: Floats) -> Floats:
+    """Move each centre to the mean of the points nearest to it until none moves."""
+    for _ in range(ROUNDS):
+        cluster = _squared_distances(points, centres).argmin(axis=1)
+        moved = centres.copy()
+        for c in np.unique(cluster):
+            moved[c] = points[cluster == c].mean(axis=0)
+        if np.array_equal(moved, centres):
+            break
+        centres = moved
+    return centres
+
+
+def _squared_distances(a: Floats, b: Floats) -> Floats:
+    return np.asarray(((a[:, None] - b[None]) ** 2).sum(axis=-1))
