@@ -70,6 +70,7 @@ def ground_speed_paper(
 
     With the wind anywhere behind, ``u_max``; with the wind ahead, the upper end of (4). In a wind
     from behind but near the beam, ``u_max`` over ground needs a greater airspeed than ``u_max``.
+    The rule jumps where the wind is abeam, which counts as behind.
 
     Parameters
     ----------
@@ -83,7 +84,7 @@ def ground_speed_paper(
     along, across = _components(d, w)
     head = along + np.sqrt(np.maximum(u_max**2 - across**2, 0.0))
     head = np.where((np.abs(across) <= u_max) & (head > STANDSTILL * u_max), head, 0.0)
-    return np.where(along >= 0.0, u_max, head)
+    return np.where(along >= -STANDSTILL * u_max, u_max, head)
 
 
 def flight_time(d: NDArray[np.float64], speed: NDArray[np.float64]) -> NDArray[np.float64]:

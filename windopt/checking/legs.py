@@ -16,6 +16,9 @@ from windopt.domain.wind import Wind
 
 Displacement = tuple[float, float]
 
+ABEAM = 1e-8
+"""Radians; the paper's rule jumps where the wind is abeam, and rounding must not decide."""
+
 
 def least_time(d: Displacement, wind: Wind, uav: Uav) -> float:
     """Return the least time of a leg [s]; ``inf`` where the UAV cannot hold the course."""
@@ -55,7 +58,7 @@ def time_by_the_papers_rule(d: Displacement, wind: Wind, uav: Uav) -> float:
         return length / uav.airspeed
     cosine = (d[0] * wind.u + d[1] * wind.v) / (length * wind.speed)
     theta_sw = acos(max(-1.0, min(1.0, cosine)))
-    if theta_sw <= pi / 2:
+    if theta_sw <= pi / 2 + ABEAM:
         return length / uav.airspeed
     drift = wind.speed * sin(pi - theta_sw) / uav.airspeed
     if drift > 1:

@@ -1,0 +1,116 @@
+"""The checker against plans worked out on paper, and against each way of breaking them."""
+
+from dataclasses import replace
+
+import pytest
+
+from windopt.checking import check
+from windopt.domain.farm import Farm
+from windopt.domain.fleet import Fleet, Station, Uav
+from windopt.domain.plan import Flight, InspectionPlan, SpeedRule, Unreachable
+from windopt.domain.turbine import Turbine
+from windopt.domain.wind import Wind
+from windopt.result import Result, Status
+
+# An east wind of 6 m/s and UAVs of 10 m/s: westward legs fly at 10 m/s over ground (16 without
+# the cap), eastward ones at 4, northward and southward ones at 8.
+WIND = Wind.from_met(6.0, 90.0)
+UAV = Uav("test UAV", airspeed=10.0, t_max=1000.0, wind_max=9.0)
+FARM = Farm(
+    "Paper",
+    (
+        Turbine("A1", 0.0, 800.0),
+        Turbine("A2", -1000.0, 800.0),
+        Turbine("B1", -1000.0, 0.0),
+        Turbine("C1", 50_000.0, 0.0),
+    ),
+)
+FLEET = Fleet((Station("S1", 0.0, 0.0, UAV), Station("S2", 0.0, 10.0, UAV)))
+ROUND = Flight("S1", "test UAV", ("A1", "A2", "B1"), (100.0, 100.0, 100.0, 250.0), 640.0)
+FAR = Unreachable("C1", "too far")
+PLAN = InspectionPlan(FARM, FLEET, WIND, (30.0, 30.0, 30.0, 30.0), (ROUND,), (FAR,))
+RESULT = Result(Status.FEASIBLE, PLAN, 640.0, 600.0, 0.1)
+
+
+def broken(**changes):
+    return replace(PLAN, flights=(replace(ROUND, **changes),))
+
+
+def test_a_plan_worked_out_on_paper_passes():
+    report = check(RESULT)
+    assert report.passed, report.violations
+    assert report.flights == 1
+
+
+MUTANTS = {
+    "neither visited nor listed": replace(
+        PLAN, flights=(replace(ROUND, turbines=("A1", "A2"), legs=(100.0, 100.0, 300.0)),)
+    ),
+    "visited 2 times": broken(turbines=("A1", "A2", "B1", "A1")),
+    "not one of the farm's": broken(turbines=("A1", "A2", "B1", "Z9")),
+    "is visited though listed": replace(PLAN, unreachable=(FAR, Unreachable("A1", ""))),
+    "but S1 reaches it": replace(PLAN, flights=(), unreachable=(FAR, Unreachable("A1", ""))),
+    "listed as unreachable 2 times": replace(PLAN, unreachable=(FAR, FAR)),
+    "not one of the fleet's": broken(station="S9"),
+    "leg 1 is said to take": broken(station="S2"),
+    "is not kept there": broken(uav="another UAV"),
+    "no turbine is visited": replace(PLAN, flights=(ROUND, replace(ROUND, turbines=(), legs=()))),
+    "3 legs for 3 turbines": broken(legs=(100.0, 100.0, 100.0)),
+    "leg 4 is said to take": broken(legs=(100.0, 100.0, 100.0, 200.0)),
+    "is flown at 12.50 m/s, above": broken(legs=(100.0, 80.0, 100.0, 250.0)),
+    "its legs and dwells 640": broken(duration=600.0),
+    "longer than t_max": replace(
+        PLAN, fleet=Fleet((Station("S1", 0.0, 0.0, replace(UAV, t_max=639.0)),))
+    ),
+    "above the UAV's limit": replace(
+        PLAN, fleet=Fleet((Station("S1", 0.0, 0.0, replace(UAV, wind_max=5.0)),))
+    ),
+    "cannot be flown": replace(PLAN, wind=Wind.from_met(8.9, 0.0), fleet=Fleet(
+        (Station("S1", 0.0, 0.0, replace(UAV, airspeed=8.0)),))),
+    "leg 3 is said to take": replace(PLAN, wind=Wind.from_met(6.0, 91.0)),
+    "a dwell is negative": replace(PLAN, dwell=(-30.0, 30.0, 30.0, 30.0)),
+    "3 dwells for 4 turbines": replace(PLAN, dwell=(30.0, 30.0, 30.0)),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("sentence", MUTANTS)
+def test_a_broken_plan_is_rejected(sentence):
+    assert any(sentence in violation for violation in check(MUTANTS[sentence]).violations)
+
+
+def test_a_longer_dwell_makes_the_flight_too_long():
+    report = check(replace(PLAN, dwell=(200.0, 200.0, 200.0, 0.0)))
+    assert any("longer than t_max" in violation for violation in report.violations)
+
+
+@pytest.mark.parametrize(
+    ("changes", "sentence"),
+    [
+        ({"objective": 630.0}, "objective"),
+        ({"bound": 650.0}, "does not bound"),
+        ({"bound": float("nan")}, "does not bound"),
+        ({"status": Status.OPTIMAL, "bound": -float("inf")}, "without a bound"),
+        ({"status": Status.INFEASIBLE}, "the status is infeasible"),
+    ],
+)
+def test_a_broken_promise_is_rejected(changes, sentence):
+    assert any(sentence in violation for violation in check(replace(RESULT, **changes)).violations)
+
+
+def test_a_result_without_a_plan_does_not_pass():
+    assert not check(replace(RESULT, solution=None)).passed
+
+
+def test_without_the_cap_the_tail_wind_carries_the_uav():
+    fast = replace(UAV, ground_speed_cap=False)
+    flight = replace(ROUND, legs=(100.0, 62.5, 100.0, 250.0), duration=602.5)
+    fleet = Fleet((Station("S1", 0.0, 0.0, fast),))
+    assert check(replace(PLAN, fleet=fleet, flights=(flight,))).passed
+
+
+def test_the_papers_rule_passes_with_a_warning_where_the_uav_cannot_keep_up():
+    # Due north in this wind counts as tail wind: full ground speed, at 11.7 m/s through the air.
+    flight = replace(ROUND, legs=(80.0, 100.0, 80.0, 250.0), duration=600.0)
+    report = check(replace(PLAN, flights=(flight,), rule=SpeedRule.PAPER))
+    assert report.passed, report.violations
+    assert any("airspeed of 11.66" in warning for warning in report.warnings)
