@@ -34,6 +34,7 @@ templates_path = ["_templates"]
 
 autodoc_preserve_defaults = True
 autodoc_member_order = "bysource"
+autosummary_ignore_module_all = False  # a package with __all__ shows just that
 numpydoc_show_class_members = False  # autodoc lists them already
 
 plot_html_show_formats = False
@@ -57,11 +58,12 @@ html_theme_options = {
 }
 html_show_sourcelink = False
 
-# Names of other packages that stand in our signatures; their pages are not fetched, so that the
-# build needs no network.
+# Names of other packages in our signatures: their pages are not fetched, so that the build needs
+# no network. Type variables are no objects of their own.
 nitpick_ignore_regex = [
-    (r"py:.*", r"(numpy|np|highspy|casadi|ca|matplotlib|typer|pathlib|collections|enum)\..*"),
-    (r"py:.*", r"(NDArray|HighspyArray|highs_linear_expression|Axes|Path|Iterator|StrEnum)"),
+    (r"py:.*", r"(numpy|np|scipy|highspy|casadi|ca|matplotlib|typer|pathlib|collections)\..*"),
+    (r"py:.*", r"(NDArray|ArrayLike|HighspyArray|highs_linear_expression|Axes|Path|StrEnum)"),
+    (r"py:class", r"windopt\.result\.(Solution|Other)"),
 ]
 
 
@@ -87,7 +89,7 @@ def resolve_public_name(
     name = path.partition(".")[0]
     if package != "windopt" or name not in windopt.__all__:
         return None
-    target = f"{getattr(windopt, name).__module__}.{path}"
+    target = f"{windopt._ROOMS[name]}.{path}"
     python = env.domains.python_domain
     return python.resolve_xref(env, node["refdoc"], app.builder, "obj", target, node, contnode)
 

@@ -5,43 +5,49 @@ From a wind file to yaw set-points and checked flights
 Measurements of the wind go in; yaw set-points for the turbines and inspection flights for UAVs
 come out. This tutorial goes that way once, with the farm and the wind series that come with
 windopt, so that it needs no network.
-"""
+"""  # noqa: D205, D400
 
 # %%
 # A farm and its wind
 # -------------------
 # Walney stands in the Irish Sea: Walney 1, Walney 2 and Walney Extension, 189 turbines.
 
-from importlib.resources import files
-
 import matplotlib.pyplot as plt
+import numpy as np
 
 import windopt
-from windopt import Farm, WindSeries
-from windopt.planning.stations import stations_by_k_means
+from windopt import Farm
+from windopt.io.built_in import built_in_series, built_in_stations
 from windopt.plotting import plot_flights, plot_forecast, plot_yaw
 
 farm = Farm.load("Walney")
-series = WindSeries.read(files("windopt.data") / "wind.csv")
+series = built_in_series()
 print(len(farm), "turbines")
 print(len(series), "rows, one every", series.step_seconds / 60, "minutes, from", series.time[0])
 
 # %%
+# :class:`windopt.WindSeries` says where a series comes from, and its reader what it found.
+
+print(series.source)
+print(series.notes)
+
+# %%
 # Stations for the UAVs
 # ---------------------
-# The farm says nothing about UAVs. Without stations of your own, windopt places the fewest from which
-# every turbine is within reach when the wind blows at 10 m/s, from anywhere.
+# UAVs fly from stations and must be back before the battery is empty. Walney's come with it;
+# :doc:`/how_to/own_farm` shows how to name your own, or to have them placed.
 
-fleet = stations_by_k_means(farm)
-print(len(fleet), "stations, UAVs:", fleet.stations[0].uav)
+fleet = built_in_stations()
+print(len(fleet), "stations, each with", fleet.stations[0].uav)
 
 # %%
 # The plan
 # --------
 # One call forecasts the wind of the next 40 minutes, finds yaw set-points for each step of the
-# forecast and plans flights for its mean wind.
+# forecast and plans flights for its mean wind. What was measured after ``time`` is not used.
 
-plan = windopt.plan(farm, fleet, series, method="algorithm-2")
+time = np.datetime64("2009-01-10T14:00")
+plan = windopt.plan(farm, fleet, series, time=time, method="algorithm-2")
 flights = plan.inspection.found()
 
 figure, ax = plt.subplots(figsize=(9, 7), layout="constrained")
@@ -52,7 +58,9 @@ plot_flights(flights, ax)
 # answer: no plan takes less time than the bound.
 
 print(plan.inspection.status.sentence)
-print(f"{plan.inspection.objective:.0f} s in the air, at least {plan.inspection.bound:.0f} s needed")
+print(
+    f"{plan.inspection.objective:.0f} s in the air, at least {plan.inspection.bound:.0f} s needed"
+)
 print(f"gap {plan.inspection.gap:.1%}, bound by {plan.inspection.bound_source}")
 print(flights.flights[0])
 
@@ -84,8 +92,8 @@ plot_yaw(yaw, ax)
 # %%
 # The check
 # ---------
-# An independent checker recomputes every flight and every set-point from the farm, the fleet and the
-# wind. It shares no code with the methods that made the plan.
+# An independent checker recomputes every flight and every set-point from the farm, the fleet and
+# the wind. It shares no code with the methods that made the plan.
 
 report = windopt.check(plan)
 print(report.flights, "flights and", report.set_points, "set-points recomputed")
