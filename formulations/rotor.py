@@ -1,0 +1,157 @@
+r"""What a rotor makes of the wind: power coefficients and power.
+
+The paper names :math:`C_p(\lambda, \beta)` without giving it; four published models of one
+family stand here,
+
+.. math::
+
+    C_p(\lambda, \beta) &= c_1 \Bigl(\frac{c_2}{\lambda_i} - c_3 \beta - c_4 \beta^x
+        - c_5\Bigr) e^{-c_6 / \lambda_i} + c_7 \lambda,                          \tag{1} \\
+    \frac{1}{\lambda_i} &= \frac{1}{\lambda + c_8 \beta} - \frac{c_9}{\beta^3 + 1}  \tag{2}
+
+with :math:`\lambda` the tip-speed ratio and :math:`\beta` the blade pitch in degrees, as in the
+sources (the paper's own text swaps the two names). Both are kept inside the box
+:data:`TIP_SPEED_RATIO` x :data:`PITCH`: below it :math:`\lambda + c_8 \beta` meets zero, and at
+:math:`\beta = -1` (2) has a pole. Inside it every model is smooth and has a single hump. A
+negative :math:`C_p` is returned as it is: such a rotor would have to be driven.
+
+.. [1] Slootweg, de Haan, Polinder & Kling (2003), General model for representing variable speed
+   wind turbines in power system dynamics simulations, *IEEE Trans. Power Systems* 18, 144-151.
+.. [2] Heier (2006), *Grid Integration of Wind Energy Conversion Systems*, 2nd ed., Wiley.
+.. [3] MathWorks, *Wind Turbine* block, Simscape Electrical, Specialized Power Systems.
+.. [4] Dai, Liu, Wen & Long (2016), Research on power coefficient of wind turbines based on
+   SCADA data, *Renewable Energy* 86, 206-215.
+"""
+
+from dataclasses import dataclass
+from functools import cache
+from math import e
+from typing import Any, NamedTuple
+
+import numpy as np
+from scipy.optimize import brentq
+
+TIP_SPEED_RATIO = (1.0, 15.0)
+"""Tip-speed ratios for which the models are used [-]."""
+
+PITCH = (0.0, 30.0)
+"""Blade pitches for which the models are used [deg]."""
+
+
+class Best(NamedTuple):
+    """The largest power coefficient of a model, and where it is reached."""
+
+    C_p: float  # [-]
+    lam: float  # [-]
+    beta: float  # [deg]
+
+
+class OperatingPoint(NamedTuple):
+    """How a turbine stands and turns, and what it delivers."""
+
+    gamma: float  # misalignment of the rotor with the wind [rad]
+    lam: float  # tip-speed ratio [-]
+    beta: float  # blade pitch [deg]
+    power: float  # [W]
+
+
+@dataclass(frozen=True)
+class PowerCoefficient:
+    """One model of the family (1)-(2), by its constants."""
+
+    c1: float
+    c2: float
+    c3: float
+    c4: float
+    x: float
+    c5: float
+    c6: float
+    c7: float
+    c8: float
+    c9: float
+
+    def __call__(self, lam: Any, beta: Any) -> Any:
+        """Return C_p on floats, arrays or CasADi symbols.
+
+        Parameters
+        ----------
+        lam
+            Tip-speed ratio [-].
+        beta
+            Blade pitch [deg].
+        """
+        inverse = 1 / (lam + self.c8 * beta) - self.c9 / (beta**3 + 1)  # (2)
+        lift = self.c2 * inverse - self.c3 * beta - self.c4 * beta**self.x - self.c5
+        return self.c1 * lift * e ** (-self.c6 * inverse) + self.c7 * lam  # (1)
+
+    def best(self) -> Best:
+        """Return the largest C_p inside the box: the bound that certifies every set-point."""
+        return _best(self)
+
+
+MODELS: dict[str, PowerCoefficient] = {
+    "slootweg": PowerCoefficient(0.73, 151, 0.58, 0.002, 2.14, 13.2, 18.4, 0, -0.02, 0.003),  # [1]
+    "heier": PowerCoefficient(0.5, 116, 0.4, 0, 1, 5, 21, 0, 0.089, 0.035),  # [2]
+    "mathworks": PowerCoefficient(0.5176, 116, 0.4, 0, 1, 5, 21, 0.0068, 0.08, 0.035),  # [3]
+    "dai": PowerCoefficient(0.22, 120, 0.4, 0, 1, 5, 12.5, 0, 0.08, 0.035),  # [4]
+}
+"""The published models, by name."""
+
+
+@cache
+def _best(model: PowerCoefficient) -> Best:
+    """Zoom into the best cell of a grid that is too dense to miss a model's one hump."""
+    box = np.array([TIP_SPEED_RATIO, PITCH])
+    window, cells = box, 280
+    while True:
+        lam, beta = (np.linspace(*side, cells + 1) for side in window)
+        C_p = model(lam[:, None], beta)
+        i, j = np.unravel_index(C_p.argmax(), C_p.shape)
+        width = np.ptp(window, axis=1, keepdims=True)
+        if width.max() < 1e-9:  # a step this short changes C_p by less than rounding does
+            return Best(float(C_p[i, j]), float(lam[i]), float(beta[j]))
+        around = np.array([[lam[i]], [beta[j]]]) + 2 * width / cells * (-1, 1)
+        window = np.clip(around, box[:, :1], box[:, 1:])
+
+
+def power(rho: Any, A: Any, w: Any, c: Any, C_p: Any) -> Any:
+    r"""Return the power of a rotor [W]: :math:`\frac12 \rho A (w c)^3 C_p` (the paper's eq. 1).
+
+    Parameters
+    ----------
+    rho, A
+        Air density [kg/m3] and swept area [m2].
+    w
+        Wind speed [m/s].
+    c
+        Cosine of the misalignment: only the wind along the rotor's axis counts.
+    C_p
+        Power coefficient [-].
+    """
+    return 0.5 * rho * A * (w * c) ** 3 * C_p
+
+
+def regulated(model: PowerCoefficient, v: float) -> tuple[float, float]:
+    """Return the tip-speed ratio and pitch [deg] that hold a rotor at its rated power.
+
+    It keeps the speed at which it reaches rated power and pitches its blades; where no pitch
+    in the box is enough, it turns as much faster as it must.
+
+    Parameters
+    ----------
+    model
+        Its power coefficient.
+    v
+        Wind along its axis, as a multiple (at least 1) of the wind that just suffices.
+    """
+    C_p_max, lam_best, beta_best = model.best()
+    lam, wanted = lam_best / v, C_p_max / v**3
+
+    def excess(lam: float, beta: float) -> float:
+        return float(model(lam, beta)) - wanted
+
+    if excess(lam, beta_best) < 0:
+        return brentq(excess, lam, lam_best, args=(beta_best,)), beta_best
+    if excess(lam, PITCH[1]) > 0:
+        return brentq(excess, lam, lam_best, args=(PITCH[1],)), PITCH[1]
+    return lam, brentq(lambda beta: excess(lam, beta), beta_best, PITCH[1])
