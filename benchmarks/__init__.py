@@ -1,0 +1,1 @@
+"""Instances and methods, measured: nobody imports this package."""

@@ -1,0 +1,88 @@
+"""Farms of the OptiWindNet repository: about 110 real layouts and a few from the literature."""
+
+from collections.abc import Iterable
+from difflib import get_close_matches
+from functools import cache
+from importlib.metadata import version
+from typing import Any
+
+import numpy as np
+
+from windopt.domain.farm import Farm
+from windopt.domain.turbine import Turbine
+from windopt.errors import InvalidInput, MissingExtra
+from windopt.io.coordinates import utm_crs
+from windopt.io.turbine_names import distinct_names
+from windopt.io.turbine_types import types_by_rating
+
+SMALLEST_EXTENT = 100.0  # m; below it the numbers cannot be metres
+
+
+@cache
+def _repository() -> tuple[Any, ...]:
+    # Only the importer: the rest of OptiWindNet loads OR-tools, which cannot share a process
+    # with HiGHS.
+    from optiwindnet.importer import load_repository
+
+    return tuple(load_repository())
+
+
+def optiwindnet_farm(name: str, also_known: Iterable[str] = ()) -> Farm:
+    """Load one of OptiWindNet's farms.
+
+    Parameters
+    ----------
+    name
+        The farm's name or handle, such as ``"Horns Rev 1"`` or ``"horns"``; case does not matter.
+    also_known
+        Further names to list if ``name`` is unknown.
+
+    Raises
+    ------
+    InvalidInput
+        If no farm is so called, with the names that come close.
+    MissingExtra
+        If OptiWindNet is not installed.
+    """
+    try:
+        repository = _repository()
+    except ImportError:
+        raise MissingExtra(f"The farm {name!r}", "farms") from None
+    names: dict[str, Any] = {}
+    for graph in repository:
+        names.setdefault(graph.graph["handle"], graph)
+        names[graph.graph["name"]] = graph
+    known = {known.casefold(): known for known in (*also_known, *names)}
+    key = name.strip().casefold()
+    if key not in known or known[key] not in names:
+        close = [known[k] for k in get_close_matches(key, known, n=5)]
+        hint = f"one of {', '.join(close)}" if close else "a file, or a farm of OptiWindNet"
+        raise InvalidInput("farm", f"to be {hint}", repr(name))
+    return _farm(names[known[key]])
+
+
+def _farm(graph: Any) -> Farm:
+    """Translate OptiWindNet's graph: turbines first in ``VertexC``, substations last."""
+    facts = graph.graph
+    n, substations = facts["T"], facts["R"]
+    xy = np.asarray(facts["VertexC"], dtype=float)
+    nodes = [graph.nodes[i] for i in range(n)]
+    powers = [node.get("power") or facts.get("power_per_inflow") for node in nodes]
+    names, name_notes = distinct_names([node.get("label") for node in nodes])
+    types, type_notes = types_by_rating([float(p) * 1e6 if p else None for p in powers])
+
+    crs, notes = None, [*name_notes, *type_notes]
+    if "utm_zone_number" in facts:
+        crs = utm_crs(facts["utm_zone_number"], facts["utm_zone_letter"])
+    else:
+        notes.append("The source names no coordinate system.")
+    if np.ptp(xy[:n], axis=0).max() < SMALLEST_EXTENT:
+        notes.append("The coordinates are too small to be metres; they are kept as they are.")
+    return Farm(
+        facts["name"],
+        tuple(Turbine(*row) for row in zip(names, *xy[:n].T.tolist(), types, strict=True)),
+        crs=crs,
+        substations=tuple((x, y) for x, y in xy[len(xy) - substations :].tolist()),
+        source=f"OptiWindNet {version('optiwindnet')}, {facts['handle']}",
+        notes=tuple(notes),
+    )
