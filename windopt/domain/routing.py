@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from itertools import pairwise
+from math import inf
 from typing import NamedTuple
 
 import numpy as np
@@ -35,6 +36,8 @@ class RoutingInstance:
         Velocity of the air [m/s], shape ``(2,)``.
     allowed
         Whether station d may serve turbine i, shape ``(k, n)``.
+    airspeed
+        Greatest airspeed of each station's UAV [m/s], shape ``(k,)``; unlimited unless given.
     """
 
     t: NDArray[np.float64]
@@ -43,6 +46,7 @@ class RoutingInstance:
     turbines: NDArray[np.float64]
     w: NDArray[np.float64]
     allowed: NDArray[np.bool_]
+    airspeed: NDArray[np.float64] | float = inf
 
     def __post_init__(self) -> None:
         k, n = len(self.stations), len(self.turbines)
