@@ -1,0 +1,103 @@
+"""Algorithm 2, lines 11-13: for each UAV the shortest tour of its turbines, split into flights."""
+
+from collections.abc import Sequence
+from time import perf_counter
+
+import numpy as np
+from numpy.typing import NDArray
+
+from formulations.tour import tour
+from windopt.domain.routing import Route, RoutingInstance
+from windopt.heuristics.relaxation import NAME, least_total_time
+from windopt.heuristics.splitting import Split
+from windopt.result import Result, Status
+from windopt.solving.integer import solve
+
+TIE = 1e-9  # Difference between objective and bound that is rounding, as a fraction.
+
+
+def fly_tours(
+    instance: RoutingInstance,
+    assigned: NDArray[np.intp],
+    *,
+    split: Split,
+    time_limit: float,
+    seed: int,
+    moved: int = 0,
+) -> Result[tuple[Route, ...]]:
+    """Find the shortest tour of each UAV through its turbines and split it into flights.
+
+    Parameters
+    ----------
+    assigned
+        The UAV of each turbine, shape ``(n,)``, each able to inspect it and be back in time.
+    split
+        Cuts the order of a tour into flights.
+    time_limit
+        Wall-clock limit of all tours together [s]. What is left of it is shared equally among
+        the UAVs still to come; one that runs out of it flies to the turbine soonest reached.
+    moved
+        How many turbines were reassigned, for the reason.
+    """
+    began = perf_counter()
+    bound = least_total_time(instance)
+    uavs = np.unique(assigned).tolist()
+    routes: list[Route] = []
+    statuses: list[Status] = []
+    for waiting, uav in zip(range(len(uavs), 0, -1), uavs, strict=True):
+        turbines = np.flatnonzero(assigned == uav)
+        nodes = np.concatenate([[0], turbines + 1])
+        t = instance.t[uav][np.ix_(nodes, nodes)]
+        left = max(0.0, began + time_limit - perf_counter())
+        if Status.INTERRUPTED in statuses:
+            left = 0.0
+        status, order = _order(t, time_limit=left / waiting, seed=seed)
+        statuses.append(status)
+        flights = split(order, t, float(instance.t_max[uav]))
+        routes += (Route(uav, tuple(turbines[list(flight)].tolist())) for flight in flights)
+
+    total = instance.total(tuple(routes))
+    return Result(
+        _overall(statuses, proved=total <= bound * (1 + TIE)),
+        tuple(routes),
+        total,
+        min(bound, total),
+        perf_counter() - began,
+        bound_source=NAME,
+        reason=_reason(moved, statuses),
+    )
+
+
+def _order(t: NDArray[np.float64], *, time_limit: float, seed: int) -> tuple[Status, Sequence[int]]:
+    """Return the turbines in the order of the shortest tour, and how sure that is."""
+    program = tour(t)
+    result = solve(program, time_limit=time_limit, seed=seed)
+    if result.solution is None:
+        return result.status, _soonest_next(t)
+    [(_, order)] = program.routes(result.solution)
+    return result.status, order
+
+
+def _soonest_next(t: NDArray[np.float64]) -> list[int]:
+    """Return the turbines in the order of always flying to the one soonest reached."""
+    here, waiting = 0, list(range(1, len(t)))
+    order = []
+    while waiting:
+        here = min(waiting, key=t[here].__getitem__)
+        waiting.remove(here)
+        order.append(here - 1)
+    return order
+
+
+def _overall(statuses: list[Status], *, proved: bool) -> Status:
+    if proved:
+        return Status.OPTIMAL
+    return Status.INTERRUPTED if Status.INTERRUPTED in statuses else Status.FEASIBLE
+
+
+def _reason(moved: int, statuses: list[Status]) -> str:
+    sentences = [f"Turbines reassigned: {moved}."] if moved else []
+    unproved = sum(status is not Status.OPTIMAL for status in statuses)
+    if unproved:
+        sentences.append(f"Tours not proved shortest: {unproved} of {len(statuses)}.")
+    return " ".join(sentences)
