@@ -25,7 +25,7 @@ negative :math:`C_p` is returned as it is: such a rotor would have to be driven.
 
 from dataclasses import dataclass
 from functools import cache
-from math import e
+from math import cos, e
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -101,17 +101,17 @@ MODELS: dict[str, PowerCoefficient] = {
 @cache
 def _best(model: PowerCoefficient) -> Best:
     """Zoom into the best cell of a grid that is too dense to miss a model's one hump."""
-    box = np.array([TIP_SPEED_RATIO, PITCH])
-    window, cells = box, 280
+    low, high = lowest, highest = np.array([TIP_SPEED_RATIO, PITCH]).T
+    cells = 280
     while True:
-        lam, beta = (np.linspace(*side, cells + 1) for side in window)
+        lam, beta = np.linspace(low, high, cells + 1).T
         C_p = model(lam[:, None], beta)
         i, j = np.unravel_index(C_p.argmax(), C_p.shape)
-        width = np.ptp(window, axis=1, keepdims=True)
-        if width.max() < 1e-9:  # a step this short changes C_p by less than rounding does
+        cell = (high - low) / cells
+        if cell.max() < 1e-11:  # a step this short changes C_p by less than rounding does
             return Best(float(C_p[i, j]), float(lam[i]), float(beta[j]))
-        around = np.array([[lam[i]], [beta[j]]]) + 2 * width / cells * (-1, 1)
-        window = np.clip(around, box[:, :1], box[:, 1:])
+        peak = np.array([lam[i], beta[j]])
+        low, high = np.maximum(lowest, peak - 2 * cell), np.minimum(highest, peak + 2 * cell)
 
 
 def power(rho: Any, A: Any, w: Any, c: Any, C_p: Any) -> Any:
@@ -155,3 +155,29 @@ def regulated(model: PowerCoefficient, v: float) -> tuple[float, float]:
     if excess(lam, PITCH[1]) > 0:
         return brentq(excess, lam, lam_best, args=(PITCH[1],)), PITCH[1]
     return lam, brentq(lambda beta: excess(lam, beta), beta_best, PITCH[1])
+
+
+def operating_point(
+    model: PowerCoefficient, gamma: float, *, w: float, rho: float, A: float, p_rated: float
+) -> OperatingPoint:
+    """Return what a turbine with this yaw delivers: all it can, or its rated power.
+
+    Parameters
+    ----------
+    model
+        Power coefficient of its rotor.
+    gamma
+        Misalignment with the wind [rad]; a rotor that is turned away delivers nothing.
+    w
+        Wind speed [m/s].
+    rho, A
+        Air density [kg/m3] and swept area [m2].
+    p_rated
+        The most the generator may deliver [W].
+    """
+    best = model.best()
+    available = power(rho, A, w, max(0.0, cos(gamma)), best.C_p)
+    if available <= p_rated:
+        return OperatingPoint(gamma, best.lam, best.beta, available)
+    lam, beta = regulated(model, (available / p_rated) ** (1 / 3))
+    return OperatingPoint(gamma, lam, beta, p_rated)
