@@ -45,16 +45,15 @@ def fly_tours(
     routes: list[Route] = []
     statuses: list[Status] = []
     for waiting, uav in zip(range(len(uavs), 0, -1), uavs, strict=True):
+        interrupted = Status.INTERRUPTED in statuses
+        left = 0.0 if interrupted else max(0.0, began + time_limit - perf_counter())
         turbines = np.flatnonzero(assigned == uav)
         nodes = np.concatenate([[0], turbines + 1])
         t = instance.t[uav][np.ix_(nodes, nodes)]
-        left = max(0.0, began + time_limit - perf_counter())
-        if Status.INTERRUPTED in statuses:
-            left = 0.0
         status, order = _order(t, time_limit=left / waiting, seed=seed)
-        statuses.append(status)
         flights = split(order, t, float(instance.t_max[uav]))
         routes += (Route(uav, tuple(turbines[list(flight)].tolist())) for flight in flights)
+        statuses.append(status)
 
     total = instance.total(tuple(routes))
     return Result(
@@ -71,9 +70,10 @@ def fly_tours(
 def _order(t: NDArray[np.float64], *, time_limit: float, seed: int) -> tuple[Status, Sequence[int]]:
     """Return the turbines in the order of the shortest tour, and how sure that is."""
     program = tour(t)
-    result = solve(program, time_limit=time_limit, seed=seed)
+    soonest = _soonest_next(t)
+    result = solve(program, time_limit=time_limit, seed=seed, start=_closed_tour(soonest))
     if result.solution is None:
-        return result.status, _soonest_next(t)
+        return result.status, soonest
     [(_, order)] = program.routes(result.solution)
     return result.status, order
 
@@ -87,6 +87,14 @@ def _soonest_next(t: NDArray[np.float64]) -> list[int]:
         waiting.remove(here)
         order.append(here - 1)
     return order
+
+
+def _closed_tour(order: Sequence[int]) -> NDArray[np.float64]:
+    """Return 1 on the arcs from the station through the turbines and back, 0 elsewhere."""
+    nodes = [0, *(turbine + 1 for turbine in order)]
+    x = np.zeros((len(nodes), len(nodes)))
+    x[nodes, np.roll(nodes, -1)] = 1.0
+    return x
 
 
 def _overall(statuses: list[Status], *, proved: bool) -> Status:
