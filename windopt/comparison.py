@@ -92,7 +92,7 @@ def _run(
         del options["gap"]
         found: Result[tuple[Route, ...]] = method(instance, **options)
         return found
-    program = method(instance.t, instance.t_max, allowed=instance.allowed)
+    program: Any = method(instance.t, instance.t_max, allowed=instance.allowed)
     result = solve(program, **options)
     if result.solution is None:
         return result

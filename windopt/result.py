@@ -85,7 +85,15 @@ class Result(Generic[Solution]):
 
     def carrying(self, solution: Other | None) -> "Result[Other]":
         """Return the same outcome with ``solution`` in place of this one's."""
-        return replace(self, solution=solution)  # type: ignore[type-var,return-value]
+        return Result(
+            self.status,
+            solution,
+            self.objective,
+            self.bound,
+            self.runtime,
+            self.bound_source,
+            self.reason,
+        )
 
     def timed(self, runtime: float) -> "Result[Solution]":
         """Return the same outcome with ``runtime`` [s] in place of this one's."""

@@ -2,7 +2,7 @@
 
 from collections import Counter
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 
@@ -84,3 +84,13 @@ class Farm:
 
     def __len__(self) -> int:
         return len(self.turbines)
+
+    def with_power_coefficient(self, model: str) -> "Farm":
+        """Return the farm with every turbine's power coefficient by another C_p model."""
+        return replace(
+            self,
+            turbines=tuple(
+                replace(turbine, type=replace(turbine.type, power_coefficient=model))
+                for turbine in self.turbines
+            ),
+        )

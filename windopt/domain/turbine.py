@@ -12,6 +12,12 @@ def require_positive(field: str, value: float) -> None:
         raise InvalidInput(field, "> 0", value)
 
 
+def require_not_negative(field: str, value: float) -> None:
+    """Raise unless ``value`` is zero, positive or infinite."""
+    if not value >= 0:
+        raise InvalidInput(field, ">= 0", value)
+
+
 def require_finite(field: str, value: float) -> None:
     """Raise unless ``value`` is a finite number."""
     if not isfinite(value):

@@ -1,6 +1,6 @@
 """Inspection flights for a farm: domain objects in, a checked plan out."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from itertools import pairwise
 from time import perf_counter
 
@@ -11,6 +11,7 @@ from windopt.domain.farm import Farm
 from windopt.domain.fleet import Fleet
 from windopt.domain.plan import Flight, InspectionPlan, SpeedRule
 from windopt.domain.routing import Route, RoutingInstance
+from windopt.domain.turbine import require_not_negative
 from windopt.domain.wind import Wind
 from windopt.errors import FailedCheck, InvalidInput
 from windopt.planning.reach import (
@@ -19,10 +20,10 @@ from windopt.planning.reach import (
     routing_instance,
     unreachable_turbines,
 )
-from windopt.planning.routing_methods import METHODS
+from windopt.planning.routing_methods import METHODS, Progress, RoutingMethod
 from windopt.result import Result, Status
 
-Progress = Callable[[float, float], None]
+DEFAULT_METHOD = "algorithm-2"
 
 
 def plan_inspection(
@@ -30,7 +31,7 @@ def plan_inspection(
     fleet: Fleet,
     wind: Wind,
     *,
-    method: str = "time-flow",
+    method: str = DEFAULT_METHOD,
     dwell: float | Sequence[float] = 0.0,
     rule: SpeedRule | str = SpeedRule.EXACT,
     gap: float = 0.0,
@@ -73,6 +74,8 @@ def plan_inspection(
         If the independent checker finds a fault in the plan.
     """
     start = perf_counter()
+    require_not_negative("time_limit", time_limit)
+    require_not_negative("gap", gap)
     solve = _chosen(method)
     rule = _rule(rule)
     dwells = dwell_per_turbine(farm, dwell)
@@ -94,7 +97,7 @@ def plan_inspection(
     return result.timed(perf_counter() - start)
 
 
-def _chosen(method: str) -> Callable[..., Result[tuple[Route, ...]]]:
+def _chosen(method: str) -> RoutingMethod:
     if method not in METHODS:
         raise InvalidInput("method", f"to be one of {', '.join(METHODS)}", repr(method))
     return METHODS[method]

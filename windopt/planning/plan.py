@@ -12,7 +12,8 @@ from windopt.errors import InvalidInput
 from windopt.forecasting.autoregression import LinearAutoregression
 from windopt.forecasting.forecaster import Forecaster
 from windopt.forecasting.persistence import Persistence
-from windopt.planning.inspection import Progress, plan_inspection
+from windopt.planning.inspection import DEFAULT_METHOD, plan_inspection
+from windopt.planning.routing_methods import Progress
 from windopt.planning.yaw import plan_yaw
 from windopt.result import Result
 
@@ -31,7 +32,7 @@ def plan(
     time: np.datetime64 | None = None,
     forecaster: Forecaster | str = "autoregression",
     yaw_method: str = "nlp",
-    method: str = "time-flow",
+    method: str = DEFAULT_METHOD,
     dwell: float | Sequence[float] = 0.0,
     rule: SpeedRule | str = SpeedRule.EXACT,
     gap: float = 0.0,

@@ -1,6 +1,7 @@
 """A farm, a fleet and a wind in numbers, and which turbines are within reach."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,6 +43,7 @@ def routing_instance(
         turbines=farm.xy,
         w=wind.velocity,
         allowed=np.array([[_flies(station, wind)] * len(farm) for station in fleet.stations]),
+        airspeed=np.array([station.uav.airspeed for station in fleet.stations]),
     )
 
 
@@ -64,7 +66,7 @@ def unreachable_turbines(
     farm: Farm, fleet: Fleet, wind: Wind, instance: RoutingInstance
 ) -> tuple[Unreachable, ...]:
     """Return the turbines that no UAV can inspect and be back in time, with the reason."""
-    out_of_reach = np.flatnonzero(~instance.reachable.any(axis=0))
+    out_of_reach = np.flatnonzero(~instance.reachable.any(axis=0)).tolist()
     return tuple(
         Unreachable(farm.names[i], _reason(fleet, wind, instance, i)) for i in out_of_reach
     )
@@ -90,12 +92,10 @@ def restricted(instance: RoutingInstance, turbines: Sequence[int]) -> RoutingIns
     """Return the instance with only the given turbines, in the given order."""
     chosen = np.asarray(turbines, dtype=int)
     nodes = np.concatenate([[0], chosen + 1])
-    return RoutingInstance(
+    return replace(
+        instance,
         t=instance.t[:, nodes[:, None], nodes],
-        t_max=instance.t_max,
-        stations=instance.stations,
         turbines=instance.turbines[chosen],
-        w=instance.w,
         allowed=instance.allowed[:, chosen],
     )
 

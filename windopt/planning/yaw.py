@@ -183,7 +183,7 @@ def _improve(points: dict[_Case, OperatingPoint], deadline: float, seed: int) ->
         if found.status is Status.INTERRUPTED:
             return (
                 Status.INTERRUPTED,
-                "Turbines not decided before the stop follow the paper's rule.",
+                "Undecided turbines follow the paper's rule.",
             )
         left_out += found.solution is None
     if left_out:

@@ -1,0 +1,26 @@
+"""The command line: one module per command, and one door that turns mistakes into exit codes."""
+
+import sys
+
+from windopt.cli.app import app
+from windopt.cli.outcome import BAD_INPUT, FAILED
+from windopt.cli.terminal import complain
+from windopt.errors import FailedCheck, InvalidInput, MissingExtra
+
+
+def main() -> None:
+    """Run the command line.
+
+    Exits with 0 when done, 1 where no plan exists or a check failed, 2 on bad input.
+    """
+    try:
+        app()
+    except (InvalidInput, MissingExtra) as mistake:
+        complain(str(mistake))
+        sys.exit(BAD_INPUT)
+    except OSError as mistake:
+        complain(f"{mistake.filename or 'File'}: {mistake.strerror or mistake}")
+        sys.exit(BAD_INPUT)
+    except FailedCheck as failure:
+        complain(str(failure))
+        sys.exit(FAILED)

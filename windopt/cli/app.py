@@ -1,0 +1,35 @@
+"""The commands, gathered."""
+
+from typing import Annotated
+
+import typer
+
+import windopt
+from windopt.cli.check import check
+from windopt.cli.demo import demo
+from windopt.cli.inspect import inspect
+from windopt.cli.plan import plan
+from windopt.cli.yaw import yaw
+
+app = typer.Typer(
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+for command in demo, plan, inspect, yaw, check:
+    app.command()(command)
+
+
+def _print_version(wanted: bool) -> None:
+    if wanted:
+        typer.echo(f"windopt {windopt.__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def windopt_(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_print_version, is_eager=True, help="The version.")
+    ] = False,
+) -> None:
+    """Yaw set-points and UAV inspection flights for wind farms."""

@@ -1,0 +1,36 @@
+"""``windopt check``: recompute a plan, independently of what made it."""
+
+from json import dumps
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from windopt.checking import check as check_plan
+from windopt.cli.options import Json
+from windopt.cli.terminal import complain, note, say
+from windopt.io.plans import read_plan
+
+PlanFile = Annotated[Path, typer.Argument(metavar="PLAN.json", help="A record that windopt wrote.")]
+
+
+def check(plan: PlanFile, json: Json = False) -> None:
+    """Recompute a plan from its farm, fleet and wind, and list every violation."""
+    report = check_plan(read_plan(plan))
+    if json:
+        told = {
+            "passed": report.passed,
+            "violations": report.violations,
+            "warnings": report.warnings,
+            "flights": report.flights,
+            "set_points": report.set_points,
+        }
+        typer.echo(dumps(told, indent=2))
+    else:
+        for sentence in report.violations:
+            complain(sentence)
+        note(report.warnings)
+        verdict = "passed" if report.passed else f"failed, {len(report.violations)} violations"
+        say(f"{plan}: {verdict} ({report.flights} flights, {report.set_points} set-points).")
+    if not report.passed:
+        raise typer.Exit(1)

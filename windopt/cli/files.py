@@ -1,0 +1,96 @@
+"""What a command leaves in its folder: the record, the map and the pictures."""
+
+from collections.abc import Callable, Iterator
+from io import BytesIO
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from windopt.cli.terminal import note, say
+from windopt.domain.plan import InspectionPlan, Plan, YawPlan
+from windopt.domain.wind import WindSeries
+from windopt.errors import InvalidInput, MissingExtra
+from windopt.io.geojson import write_geojson
+from windopt.io.plan_reader import Recorded
+from windopt.io.plans import write_plan
+from windopt.io.whole_files import write_whole
+from windopt.plotting import axes, plot_flights, plot_forecast, plot_yaw
+from windopt.result import Result
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+Picture = Callable[["Axes"], "Axes"]
+Named = tuple[str, Picture]
+
+
+def write_folder(
+    plan: Recorded, folder: Path, *, force: bool, series: WindSeries | None = None
+) -> None:
+    """Write plan.json, flights.geojson and pictures into ``folder``, each whole or not at all.
+
+    Raises
+    ------
+    InvalidInput
+        If a file is already there and ``force`` is not given; then nothing is written.
+    """
+    pictures = dict(_pictures(plan, series))
+    _refuse_overwriting(folder, ["plan.json", "flights.geojson", *pictures], force=force)
+    folder.mkdir(parents=True, exist_ok=True)
+    write_plan(plan, folder / "plan.json", force=force)
+    written = ["plan.json"]
+    if (flights := _flights(plan)) is not None:
+        written += _map(flights, folder / "flights.geojson", force=force)
+    written += _draw(pictures, folder, force=force)
+    say(f"Written to {folder}: {', '.join(written)}.")
+
+
+def _refuse_overwriting(folder: Path, names: list[str], *, force: bool) -> None:
+    there = [name for name in names if (folder / name).exists()]
+    if there and not force:
+        raise InvalidInput("--out", "to be a folder without them, or --force", ", ".join(there))
+
+
+def _flights(plan: Recorded) -> InspectionPlan | None:
+    result = plan.inspection if isinstance(plan, Plan) else plan
+    return result.solution if isinstance(result.solution, InspectionPlan) else None
+
+
+def _map(plan: InspectionPlan, path: Path, *, force: bool) -> list[str]:
+    if plan.farm.crs is None:
+        note(("The farm has no CRS, so its flights have no longitude and latitude.",))
+        return []
+    write_geojson(plan, path, force=force)
+    return [path.name]
+
+
+def _pictures(plan: Recorded, series: WindSeries | None) -> Iterator[Named]:
+    """Yield the pictures of a plan by file name."""
+    if isinstance(plan, Plan):
+        if series is not None:
+            yield "forecast.png", lambda ax: plot_forecast(series, plan.forecast, ax)
+        yield from _result_pictures(plan.yaw[0])
+        yield from _result_pictures(plan.inspection)
+    else:
+        yield from _result_pictures(plan)
+
+
+def _result_pictures(result: Result[InspectionPlan] | Result[YawPlan]) -> Iterator[Named]:
+    match result.solution:
+        case InspectionPlan() as flights:
+            yield "flights.png", lambda ax: plot_flights(flights, ax)
+        case YawPlan() as set_points:
+            yield "yaw.png", lambda ax: plot_yaw(set_points, ax)
+
+
+def _draw(pictures: dict[str, Picture], folder: Path, *, force: bool) -> list[str]:
+    """Draw the pictures, or say what they need."""
+    try:
+        figures = {name: draw(axes()).figure for name, draw in pictures.items()}
+    except MissingExtra as missing:
+        note((str(missing),))
+        return []
+    for name, figure in figures.items():
+        picture = BytesIO()
+        figure.savefig(picture, format="png", dpi=150)
+        write_whole(folder / name, picture.getvalue(), force=force)
+    return list(figures)

@@ -1,0 +1,54 @@
+"""Options that several commands share, each told once."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from windopt.planning.plan import FORECASTERS
+from windopt.planning.routing_methods import METHODS
+from windopt.planning.yaw import METHODS as YAW_METHODS
+
+FarmName = Annotated[
+    str,
+    typer.Argument(
+        metavar="FARM",
+        help="Walney (built in), a farm of OptiWindNet by name, or a windIO, FLORIS or CSV file.",
+    ),
+]
+WindSpeed = Annotated[float, typer.Option(help="Wind speed [m/s].")]
+WindDirection = Annotated[
+    float, typer.Option(help="Where the wind blows from [deg], clockwise from north.")
+]
+Stations = Annotated[
+    str,
+    typer.Option(
+        metavar="N|FILE",
+        help="Stations: how many to place by k-means, or a CSV file (id, x, y). "
+        "By default the farm's own, or as few as reach every turbine in 10 m/s from anywhere.",
+    ),
+]
+Dwell = Annotated[float, typer.Option(help="Time spent at each turbine [s].")]
+RoutingMethod = Annotated[str, typer.Option(help=f"One of {', '.join(METHODS)}.")]
+YawMethod = Annotated[str, typer.Option(help=f"One of {', '.join(YAW_METHODS)}.")]
+ForecasterName = Annotated[str, typer.Option(help=f"One of {', '.join(FORECASTERS)}.")]
+Rule = Annotated[
+    str, typer.Option(help="How the wind bends the ground speed: exact, or as in the paper.")
+]
+Airspeed = Annotated[float, typer.Option(help="Fastest airspeed of the UAVs [m/s].")]
+FlightTime = Annotated[float, typer.Option("--t-max", help="Longest flight [s].")]
+WindMax = Annotated[float, typer.Option(help="Strongest wind the UAVs fly in [m/s].")]
+GroundSpeedCap = Annotated[
+    bool, typer.Option(help="Whether the airspeed caps the speed over ground too.")
+]
+TimeLimit = Annotated[float, typer.Option(min=0, help="Wall-clock limit of the search [s].")]
+Gap = Annotated[float, typer.Option(min=0, help="Relative gap to stop at; 0 asks for a proof.")]
+Seed = Annotated[int, typer.Option(min=0, help="Seed of whatever is drawn at random.")]
+Json = Annotated[bool, typer.Option("--json", help="Print the record as JSON and nothing else.")]
+Out = Annotated[
+    Path | None, typer.Option(help="Folder for plan.json, flights.geojson and pictures.")
+]
+Force = Annotated[bool, typer.Option("--force", help="Overwrite files that exist.")]
+PowerCoefficient = Annotated[
+    str | None, typer.Option(help="C_p model: slootweg, heier, mathworks or dai.")
+]
