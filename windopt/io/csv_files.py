@@ -86,10 +86,10 @@ class CsvFile:
         """
         path = Path(path)
         text = _decoded(path)
-        if not text.strip():
+        file = cls(path, text, max(",;\t", key=text[:5000].count))
+        if not file.head(1):
             raise InvalidInput(path.name, "to hold a table", "an empty file")
-        start = text[:5000]
-        return cls(path, text, max(",;\t", key=start.count))
+        return file
 
     def _rows(self) -> Iterator[tuple[int, list[str]]]:
         """Iterate over line numbers and cells, without blank rows and leading ``#`` comments."""

@@ -49,6 +49,11 @@ class Entry:
             raise InvalidInput(path, "to be given", "nothing")
         return Entry(self.value[key], path)
 
+    def nullable(self, key: str) -> "Entry | None":
+        """Return the entry under ``key`` of this mapping, or ``None`` where it is null."""
+        entry = self[key]
+        return None if entry.value is None else entry
+
     def __iter__(self) -> Iterator["Entry"]:
         """Iterate over the entries of this list."""
         if not isinstance(self.value, list):

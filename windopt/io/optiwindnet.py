@@ -1,5 +1,6 @@
 """Farms of the OptiWindNet repository: about 110 real layouts and a few from the literature."""
 
+import warnings
 from collections.abc import Iterable
 from difflib import get_close_matches
 from functools import cache
@@ -24,7 +25,9 @@ def _repository() -> tuple[Any, ...]:
     # with HiGHS.
     from optiwindnet.importer import load_repository
 
-    return tuple(load_repository())
+    with warnings.catch_warnings():  # it leaves its files to be closed by the garbage collector
+        warnings.simplefilter("ignore", ResourceWarning)
+        return tuple(load_repository())
 
 
 def optiwindnet_farm(name: str, also_known: Iterable[str] = ()) -> Farm:

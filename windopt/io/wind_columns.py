@@ -11,7 +11,7 @@ PARTS = ("year", "month", "day", "hour", "minute")
 AFTER = r"([ _-]*(at)?[ _-]*\d+ ?m?)?([ _-]*(mean|avg|average))?([ _-]*(m/s|mps|ms|deg))?"
 NAMES = {
     "time": re.compile(
-        r"(time|date|utc|time[ _-]?stamp|date[ _-]?time)([ _-](utc|gmt|local|start|stamp))?", re.I
+        r"(time|date|utc|time[ _-]?stamp|date[ _/-]?time)([ _-](utc|gmt|local|start|stamp))?", re.I
     ),
     "speed": re.compile(rf"(wind[ _-]?(speed|spd)|wspd|ws|speed|ff){AFTER}", re.I),
     "direction": re.compile(rf"(wind[ _-]?dir(ection)?|wdir|wd|dir(ection)?|dd){AFTER}", re.I),

@@ -1,0 +1,66 @@
+"""OptiWindNet's farms by name and handle, and what is said about each."""
+
+import sys
+
+import pytest
+
+from windopt.errors import InvalidInput, MissingExtra
+from windopt.io import optiwindnet
+from windopt.io.farms import load_farm
+
+pytest.importorskip("optiwindnet")
+
+REPOSITORY = {graph.graph["handle"]: graph.graph for graph in optiwindnet._repository()}
+
+
+@pytest.mark.parametrize("handle", REPOSITORY)
+def test_every_farm_loads_by_handle_and_by_name(handle):
+    facts = REPOSITORY[handle]
+    farm = load_farm(handle)
+    assert load_farm(facts["name"].upper()).names == farm.names
+    assert (farm.name, len(farm), len(farm.substations)) == (facts["name"], facts["T"], facts["R"])
+    assert (farm.crs is None) == ("utm_zone_number" not in facts)
+
+
+def test_a_rating_makes_one_type():
+    farm = load_farm("Horns Rev 1")
+    assert {turbine.type.rated_power for turbine in farm.turbines} == {2e6}
+    assert len({id(turbine.type) for turbine in farm.turbines}) == 1
+    assert any("rotors are scaled" in note for note in farm.notes)
+
+
+def test_turbines_may_have_ratings_of_their_own():
+    ratings = [turbine.type.rated_power for turbine in load_farm("Walney Extension").turbines]
+    assert {rating: ratings.count(rating) for rating in ratings} == {8.25e6: 40, 7e6: 47}
+
+
+def test_a_name_given_twice_is_told_apart():
+    farm = load_farm("Hornsea 2")
+    assert {"D36", "D36 (2)"} <= set(farm.names)
+    assert "Names given twice are told apart: D36 (2)." in farm.notes
+
+
+def test_coordinates_that_cannot_be_metres_are_noted():
+    assert any("too small" in note for note in load_farm("cazzaro_2022").notes)
+
+
+@pytest.mark.parametrize(
+    ("name", "hint"), [("Hornsee 2", "Hornsea 2"), ("walny", "Walney"), ("xqzw", "a file")]
+)
+def test_an_unknown_name_lists_those_that_come_close(name, hint):
+    with pytest.raises(InvalidInput, match=hint):
+        load_farm(name)
+
+
+def test_without_optiwindnet_the_extra_is_named(monkeypatch):
+    monkeypatch.setitem(sys.modules, "optiwindnet.importer", None)
+    optiwindnet._repository.cache_clear()
+    with pytest.raises(MissingExtra, match=r"'Thanet' needs an extra.*windopt\[farms\]"):
+        load_farm("Thanet")
+    assert len(load_farm("walney")) == 189
+    optiwindnet._repository.cache_clear()
+
+
+def test_loading_a_farm_loads_neither_of_the_solvers_that_clash():
+    load_farm("Thanet")
+    assert "ortools" not in sys.modules

@@ -1,0 +1,222 @@
+"""Records of plans, read back into plans; the counterpart of :mod:`windopt.io.plan_records`."""
+
+import re
+from collections.abc import Callable
+from enum import StrEnum
+from math import inf, radians
+from typing import Any, TypeVar
+
+import numpy as np
+
+from windopt.domain.farm import Farm
+from windopt.domain.fleet import Fleet, Station, Uav
+from windopt.domain.plan import (
+    Flight,
+    InspectionPlan,
+    Plan,
+    SetPoint,
+    SpeedRule,
+    Unreachable,
+    YawPlan,
+)
+from windopt.domain.turbine import Turbine, TurbineType
+from windopt.domain.wind import Wind, WindForecast
+from windopt.io.entries import Entry
+from windopt.io.plan_records import SCHEMA, VERSION
+from windopt.result import Result, Status
+
+Recorded = Result[InspectionPlan] | Result[YawPlan] | Plan
+Solution = TypeVar("Solution")
+Choice = TypeVar("Choice", bound=StrEnum)
+
+# NumPy itself would also take "now", and stamps with an offset.
+TIME = re.compile(r"\d{4}-\d\d-\d\d(T\d\d(:\d\d(:\d\d(\.\d{1,9})?)?)?)?")
+
+
+def plan_from_record(document: Any) -> Recorded:
+    """Rebuild what was recorded.
+
+    Parameters
+    ----------
+    document
+        As parsed from JSON.
+
+    Returns
+    -------
+    Result or Plan
+        By the record's ``kind``: a result with an inspection or a yaw plan, or a whole plan.
+
+    Raises
+    ------
+    InvalidInput
+        Naming the key that is missing or cannot be used.
+    """
+    record = Entry(document)
+    if record["schema"].value != SCHEMA:
+        raise record["schema"].refuse(f"to be {SCHEMA!r}")
+    if record["version"].value != VERSION:
+        raise record["version"].refuse(f"to be {VERSION}")
+    kind = record["kind"].text
+    if kind not in ("inspection", "yaw", "plan"):
+        raise record["kind"].refuse("to be inspection, yaw or plan")
+    farm = _farm(record["farm"])
+    if kind == "yaw":
+        return _yaw_result(record, farm)
+    inspection = _result(record, lambda: _inspection(record, farm), worst=inf)
+    if kind == "inspection":
+        return inspection
+    yaw = tuple(_yaw_result(step, farm) for step in record["yaw"])
+    return Plan(_time(record["time"]), _forecast(record["forecast"]), yaw, inspection)
+
+
+def _result(record: Entry, solution: Callable[[], Solution], worst: float) -> Result[Solution]:
+    """Read an outcome; ``worst`` is what no solution is worth: inf for costs, -inf for gains."""
+    status = _choice(record["status"], Status)
+    objective, bound = record.nullable("objective"), record.nullable("bound")
+    unproved = worst if status is Status.INFEASIBLE else -worst
+    return Result(
+        status,
+        None if objective is None else solution(),
+        worst if objective is None else objective.number,
+        unproved if bound is None else bound.number,
+        record["runtime"].number,
+        record["bound_source"].text,
+        record["reason"].text,
+    )
+
+
+def _yaw_result(record: Entry, farm: Farm) -> Result[YawPlan]:
+    return _result(record, lambda: _yaw(record, farm), worst=-inf)
+
+
+def _choice(entry: Entry, choices: type[Choice]) -> Choice:
+    if entry.text not in set(choices):
+        raise entry.refuse(f"to be one of {', '.join(choices)}")
+    return choices(entry.text)
+
+
+def _inspection(record: Entry, farm: Farm) -> InspectionPlan:
+    reasons = record["unreachable_reasons"]
+    return InspectionPlan(
+        farm,
+        Fleet(tuple(_station(entry) for entry in record["stations"])),
+        _wind(record["wind"]),
+        tuple(record["dwell"][name].number for name in farm.names),
+        tuple(_flight(entry) for entry in record["flights"]),
+        tuple(Unreachable(name, reasons[name].text) for name in record["unreachable"].texts),
+        _choice(record["rule"], SpeedRule),
+    )
+
+
+def _station(entry: Entry) -> Station:
+    return Station(entry["id"].text, entry["x"].number, entry["y"].number, _uav(entry["uav"]))
+
+
+def _uav(entry: Entry) -> Uav:
+    wind_max = entry.nullable("wind_max")
+    return Uav(
+        entry["name"].text,
+        entry["airspeed"].number,
+        entry["t_max"].number,
+        inf if wind_max is None else wind_max.number,
+        entry["ground_speed_cap"].truth,
+    )
+
+
+def _flight(entry: Entry) -> Flight:
+    return Flight(
+        entry["station"].text,
+        entry["uav"].text,
+        tuple(entry["turbines"].texts),
+        tuple(entry["legs"].numbers),
+        entry["duration"].number,
+    )
+
+
+def _yaw(record: Entry, farm: Farm) -> YawPlan:
+    return YawPlan(
+        farm,
+        _wind(record["wind"]),
+        tuple(_set_point(entry) for entry in record["turbines"]),
+        record["power_baseline"].number,
+        record["air_density"].number,
+    )
+
+
+def _set_point(entry: Entry) -> SetPoint:
+    return SetPoint(
+        entry["name"].text,
+        nacelle=radians(entry["yaw"].number),
+        misalignment=radians(entry["misalignment"].number),
+        pitch=radians(entry["pitch"].number),
+        tip_speed_ratio=entry["tip_speed_ratio"].number,
+        wind_speed=entry["wind_speed"].number,
+        power=entry["power"].number,
+        maximum=entry["maximum"].number,
+    )
+
+
+def _wind(entry: Entry) -> Wind:
+    return Wind(entry["u"].number, entry["v"].number)
+
+
+def _forecast(entry: Entry) -> WindForecast:
+    steps = list(entry["steps"])
+    return WindForecast(
+        _time(entry["issued"]),
+        np.array([_time(step["time"]) for step in steps]),
+        np.array([step["wind_speed"].number for step in steps]),
+        np.array([radians(step["wind_direction"].number) for step in steps]),
+        entry["method"].text,
+        tuple(entry["notes"].texts),
+    )
+
+
+def _time(entry: Entry) -> np.datetime64:
+    try:
+        if TIME.fullmatch(entry.text):
+            return np.datetime64(entry.text)
+    except ValueError:
+        pass
+    raise entry.refuse("to be a time such as 2011-04-13T22:00")
+
+
+def _farm(entry: Entry) -> Farm:
+    crs = entry.nullable("crs")
+    types = {key: _turbine_type(given) for key, given in entry["turbine_types"].items()}
+    return Farm(
+        entry["name"].text,
+        tuple(_turbine(turbine, types) for turbine in entry["turbines"]),
+        None if crs is None else crs.text,
+        tuple(_point(place) for place in entry["substations"]),
+        entry["source"].text,
+        tuple(entry["notes"].texts),
+    )
+
+
+def _point(entry: Entry) -> tuple[float, float]:
+    if len(entry.numbers) != 2:
+        raise entry.refuse("to be a pair of numbers")
+    x, y = entry.numbers
+    return x, y
+
+
+def _turbine(entry: Entry, types: dict[str, TurbineType]) -> Turbine:
+    if entry["type"].text not in types:
+        raise entry["type"].refuse(f"to be one of {', '.join(types)}")
+    return Turbine(
+        entry["name"].text, entry["x"].number, entry["y"].number, types[entry["type"].text]
+    )
+
+
+def _turbine_type(entry: Entry) -> TurbineType:
+    hub_height = entry.nullable("hub_height")
+    return TurbineType(
+        entry["name"].text,
+        entry["rated_power"].number,
+        entry["swept_area"].number,
+        entry["cut_in"].number,
+        entry["cut_out"].number,
+        None if hub_height is None else hub_height.number,
+        entry["power_coefficient"].text,
+    )

@@ -1,0 +1,228 @@
+"""Plans as records: nested dictionaries of texts and numbers, ready for JSON.
+
+A record is SI throughout, but for directions and blade pitch, which are in degrees. What is not
+finite, such as a bound that nobody proved, is null. Equal plans give equal records, key by key.
+
+Every record says which farm, stations and wind it was made for, also where no plan was found;
+that is what ``problem`` is for: the same plan, empty.
+"""
+
+from collections.abc import Iterable
+from math import degrees, isfinite
+from typing import Any
+
+from windopt.domain.farm import Farm
+from windopt.domain.fleet import Station, Uav
+from windopt.domain.plan import Flight, InspectionPlan, Plan, SetPoint, YawPlan
+from windopt.domain.turbine import TurbineType
+from windopt.domain.wind import Wind, WindForecast
+from windopt.result import Result
+
+Record = dict[str, Any]
+
+SCHEMA = "windopt/plan"
+VERSION = 1
+
+
+def inspection_record(
+    result: Result[InspectionPlan], problem: InspectionPlan | None = None
+) -> Record:
+    """Record the flights of an inspection.
+
+    Parameters
+    ----------
+    problem
+        Stands in for the solution where there is none: a plan without flights.
+    """
+    plan = result.solution or problem or result.found()
+    return {**_head("inspection"), **_outcome(result), **_inspection(plan), **_farm(plan.farm)}
+
+
+def yaw_record(result: Result[YawPlan], problem: YawPlan | None = None) -> Record:
+    """Record the set-points of a farm.
+
+    Parameters
+    ----------
+    problem
+        Stands in for the solution where there is none: a plan without set-points.
+    """
+    plan = result.solution or problem or result.found()
+    return {**_head("yaw"), **_outcome(result), **_yaw(plan), **_farm(plan.farm)}
+
+
+def plan_record(plan: Plan, problem: InspectionPlan | None = None) -> Record:
+    """Record the whole answer: the inspection's record, the forecast and a yaw record per step.
+
+    Parameters
+    ----------
+    problem
+        Stands in for the inspection plan where there is none: a plan without flights.
+    """
+    inspection = inspection_record(plan.inspection, problem)
+    farm = (plan.inspection.solution or problem or plan.inspection.found()).farm
+    return {
+        **inspection,
+        "kind": "plan",
+        "time": str(plan.time),
+        "forecast": _forecast(plan.forecast),
+        "yaw": [
+            {"time": str(time), **_outcome(step), **_yaw(step.solution or _blank(farm, wind))}
+            for time, wind, step in zip(
+                plan.forecast.time, plan.forecast.winds, plan.yaw, strict=True
+            )
+        ],
+    }
+
+
+def _blank(farm: Farm, wind: Wind) -> YawPlan:
+    return YawPlan(farm, wind, (), 0.0, 0.0)
+
+
+def _head(kind: str) -> Record:
+    return {"schema": SCHEMA, "version": VERSION, "kind": kind}
+
+
+def _finite(number: float) -> float | None:
+    return float(number) if isfinite(number) else None
+
+
+def _outcome(result: Result[Any]) -> Record:
+    return {
+        "status": str(result.status),
+        "objective": _finite(result.objective) if result.solution is not None else None,
+        "bound": _finite(result.bound),
+        "gap": _finite(result.gap),
+        "bound_source": result.bound_source,
+        "runtime": _finite(result.runtime),
+        "reason": result.reason,
+    }
+
+
+def _inspection(plan: InspectionPlan) -> Record:
+    return {
+        "wind": _wind(plan.wind),
+        "rule": str(plan.rule),
+        "stations": [_station(station) for station in plan.fleet.stations],
+        "flights": [_flight(flight) for flight in plan.flights],
+        "unreachable": [left_out.turbine for left_out in plan.unreachable],
+        "unreachable_reasons": {left.turbine: left.reason for left in plan.unreachable},
+        "dwell": dict(zip(plan.farm.names, map(float, plan.dwell), strict=True)),
+    }
+
+
+def _yaw(plan: YawPlan) -> Record:
+    rated = {turbine.name: turbine.type.rated_power for turbine in plan.farm.turbines}
+    return {
+        "wind": _wind(plan.wind),
+        "air_density": float(plan.air_density),
+        "power": float(plan.power),
+        "power_baseline": float(plan.power_baseline),
+        "turbines": [_set_point(point, rated[point.turbine]) for point in plan.set_points],
+    }
+
+
+def _wind(wind: Wind) -> Record:
+    """Speed and direction for people; u and v are what is read back."""
+    return {
+        "speed": wind.speed,
+        "direction": degrees(wind.theta_met),
+        "u": float(wind.u),
+        "v": float(wind.v),
+    }
+
+
+def _station(station: Station) -> Record:
+    return {
+        "id": station.name,
+        "x": float(station.x),
+        "y": float(station.y),
+        "uav": _uav(station.uav),
+    }
+
+
+def _uav(uav: Uav) -> Record:
+    return {
+        "name": uav.name,
+        "airspeed": float(uav.airspeed),
+        "t_max": float(uav.t_max),
+        "wind_max": _finite(uav.wind_max),
+        "ground_speed_cap": uav.ground_speed_cap,
+    }
+
+
+def _flight(flight: Flight) -> Record:
+    return {
+        "uav": flight.uav,
+        "station": flight.station,
+        "turbines": list(flight.turbines),
+        "legs": [float(leg) for leg in flight.legs],
+        "duration": float(flight.duration),
+    }
+
+
+def _set_point(point: SetPoint, rated_power: float) -> Record:
+    return {
+        "name": point.turbine,
+        "yaw": degrees(point.nacelle),
+        "misalignment": degrees(point.misalignment),
+        "pitch": degrees(point.pitch),
+        "tip_speed_ratio": float(point.tip_speed_ratio),
+        "wind_speed": float(point.wind_speed),
+        "power": float(point.power),
+        "maximum": float(point.maximum),
+        "rated_power": float(rated_power),
+    }
+
+
+def _forecast(forecast: WindForecast) -> Record:
+    steps = zip(forecast.time, forecast.speed, forecast.theta_met, strict=True)
+    return {
+        "issued": str(forecast.issued),
+        "method": forecast.method,
+        "steps": [
+            {"time": str(time), "wind_speed": float(speed), "wind_direction": degrees(theta)}
+            for time, speed, theta in steps
+        ],
+        "notes": list(forecast.notes),
+    }
+
+
+def _farm(farm: Farm) -> Record:
+    keys = _type_keys(turbine.type for turbine in farm.turbines)
+    return {
+        "farm": {
+            "name": farm.name,
+            "crs": farm.crs,
+            "source": farm.source,
+            "notes": list(farm.notes),
+            "substations": [[float(x), float(y)] for x, y in farm.substations],
+            "turbine_types": {key: _turbine_type(type_) for type_, key in keys.items()},
+            "turbines": [
+                {"name": t.name, "x": float(t.x), "y": float(t.y), "type": keys[t.type]}
+                for t in farm.turbines
+            ],
+        }
+    }
+
+
+def _type_keys(types: Iterable[TurbineType]) -> dict[TurbineType, str]:
+    """Return a distinct key for each type: its name, numbered where two types share it."""
+    keys: dict[TurbineType, str] = {}
+    for type_ in dict.fromkeys(types):
+        key, count = type_.name, 2
+        while key in keys.values():
+            key, count = f"{type_.name} ({count})", count + 1
+        keys[type_] = key
+    return keys
+
+
+def _turbine_type(type_: TurbineType) -> Record:
+    return {
+        "name": type_.name,
+        "rated_power": float(type_.rated_power),
+        "swept_area": float(type_.swept_area),
+        "cut_in": float(type_.cut_in),
+        "cut_out": float(type_.cut_out),
+        "hub_height": None if type_.hub_height is None else float(type_.hub_height),
+        "power_coefficient": type_.power_coefficient,
+    }
