@@ -133,7 +133,7 @@ def _prepare(opti: ca.Opti, time_limit: float, max_iter: int) -> None:
         "tol": 1e-10,
         "bound_relax_factor": 0.0,  # 1e-8 by default: a cap would be exceeded by as much
         "max_iter": max_iter,
-        "max_wall_time": time_limit,
+        "max_wall_time": min(time_limit, 1e9),  # Ipopt knows no infinity
     }
     opti.solver("ipopt", casadi_options, ipopt_options)
     _limits[opti] = time_limit, max_iter
