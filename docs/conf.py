@@ -1,6 +1,7 @@
 """How Sphinx builds these pages: ``sphinx-build -W -n -b html docs docs/_build/html``."""
 
-import os
+from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -9,11 +10,12 @@ from docutils.nodes import Node
 from sphinx.addnodes import pending_xref
 from sphinx.application import Sphinx
 from sphinx.environment import BuildEnvironment
+from typer.main import get_command
 from typer.testing import CliRunner
 
 import windopt
+from windopt.cli import app as windopt_app
 
-os.environ["PYTHONHASHSEED"] = "0"
 matplotlib.use("agg")
 
 project = "windopt"
@@ -45,6 +47,7 @@ sphinx_gallery_conf = {
     "examples_dirs": "examples",
     "gallery_dirs": "tutorials",
     "abort_on_example_error": True,
+    "capture_repr": (),
     "download_all_examples": False,
     "write_computation_times": False,
     "show_signature": False,
@@ -67,18 +70,21 @@ nitpick_ignore_regex = [
 ]
 
 
+def commands_below(command: Any, path: tuple[str, ...] = ()) -> Iterator[tuple[str, ...]]:
+    """Yield a command and all below it, each as the words that call it."""
+    yield path
+    for name, below in getattr(command, "commands", {}).items():
+        yield from commands_below(below, (*path, name))
+
+
 def write_command_line(app: Sphinx) -> None:
     """Write the page of commands from what each command's ``--help`` says."""
-    from windopt.cli import app as commands
-
-    def help_of(*command: str) -> str:
-        environment = {"COLUMNS": "90", "NO_COLOR": "1", "TERM": "dumb"}
-        return CliRunner().invoke(commands, [*command, "--help"], env=environment).output
-
-    names = [command.name or command.callback.__name__ for command in commands.registered_commands]
+    environment = {"COLUMNS": "100", "NO_COLOR": "1", "TERM": "dumb"}
+    call = partial(CliRunner().invoke, windopt_app, env=environment, prog_name="windopt")
+    texts = [call([*words, "--help"]).output for words in commands_below(get_command(windopt_app))]
     page = Path(app.srcdir, "reference", "generated", "command_line.txt")
     page.parent.mkdir(exist_ok=True)
-    page.write_text("\n".join([help_of(), *(help_of(name) for name in names)]), encoding="utf-8")
+    page.write_text("\n".join(texts), encoding="utf-8")
 
 
 def resolve_public_name(
@@ -95,6 +101,6 @@ def resolve_public_name(
 
 
 def setup(app: Sphinx) -> None:
-    """Connect the two functions above."""
+    """Connect the functions above."""
     app.connect("builder-inited", write_command_line)
     app.connect("missing-reference", resolve_public_name)

@@ -18,7 +18,7 @@ PAGES = sorted(
     for page in DOCS.rglob("*.rst")
     if not {"_build", "_templates", "tutorials", "generated"} & set(page.relative_to(DOCS).parts)
 )
-COMMAND = re.compile(r"^ +\$ (windopt .*(?:\\\n.*)*)", re.MULTILINE)
+COMMAND = re.compile(r"^ +\$ (windopt (?:.*\\\n)*.*)", re.MULTILINE)
 
 
 @pytest.fixture

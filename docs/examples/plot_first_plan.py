@@ -50,7 +50,7 @@ time = np.datetime64("2009-01-10T14:00")
 plan = windopt.plan(farm, fleet, series, time=time, method="algorithm-2")
 flights = plan.inspection.found()
 
-figure, ax = plt.subplots(figsize=(9, 7), layout="constrained")
+figure, ax = plt.subplots(figsize=(9, 5.5), layout="constrained")
 plot_flights(flights, ax)
 
 # %%
@@ -65,10 +65,9 @@ print(f"gap {plan.inspection.gap:.1%}, bound by {plan.inspection.bound_source}")
 print(flights.flights[0])
 
 # %%
-# Turbines out of reach are not forgotten: they are listed, each with the reason.
+# A turbine out of reach would be listed with the reason, and the rest planned. Here there is none.
 
-for turbine in flights.unreachable:
-    print(turbine.turbine, turbine.reason)
+print(flights.unreachable)
 
 # %%
 # The forecast it was made for
@@ -86,7 +85,7 @@ yaw = plan.yaw[0].found()
 print(f"{yaw.power / 1e6:.1f} MW, facing the wind {yaw.power_baseline / 1e6:.1f} MW")
 print(yaw.set_points[0])
 
-figure, ax = plt.subplots(figsize=(9, 7), layout="constrained")
+figure, ax = plt.subplots(figsize=(9, 5.5), layout="constrained")
 plot_yaw(yaw, ax)
 
 # %%
