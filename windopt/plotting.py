@@ -80,17 +80,19 @@ def _stops(flight: Flight, plan: InspectionPlan) -> Iterator[tuple[float, float]
 
 def plot_wind(wind: Wind, ax: "Axes") -> "Axes":
     """Draw the wind as an arrow in the upper right corner."""
-    length, centre = 0.06, np.array([0.92, 0.92])
-    half = length * np.array([cos(wind.theta_pol), sin(wind.theta_pol)])
-    ax.annotate(
-        "",
-        xy=tuple(centre + half),
-        xytext=tuple(centre - half),
-        xycoords="axes fraction",
-        arrowprops={"arrowstyle": "-|>", "lw": 2, "color": COLOURS[0]},
+    towards = [cos(wind.theta_pol)], [sin(wind.theta_pol)]
+    ax.quiver(
+        *([0.93], [0.92]),
+        *towards,
+        transform=ax.transAxes,
+        pivot="mid",
+        scale=2.5,
+        scale_units="inches",
+        width=0.006,
+        color=COLOURS[0],
     )
     text = f"{wind.speed:.1f} m/s from {np.degrees(wind.theta_met):.0f}°"
-    ax.text(0.98, 0.83, text, transform=ax.transAxes, ha="right", color=COLOURS[0])
+    ax.text(0.98, 0.82, text, transform=ax.transAxes, ha="right", color=COLOURS[0])
     return ax
 
 

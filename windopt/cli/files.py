@@ -85,12 +85,18 @@ def _result_pictures(result: Result[InspectionPlan] | Result[YawPlan]) -> Iterat
 def _draw(pictures: dict[str, Picture], folder: Path, *, force: bool) -> list[str]:
     """Draw the pictures, or say what they need."""
     try:
-        figures = {name: draw(axes()).figure for name, draw in pictures.items()}
+        drawn = {name: _png(draw(axes())) for name, draw in pictures.items()}
     except MissingExtra as missing:
         note((str(missing),))
         return []
-    for name, figure in figures.items():
-        picture = BytesIO()
-        figure.savefig(picture, format="png", dpi=150)
-        write_whole(folder / name, picture.getvalue(), force=force)
-    return list(figures)
+    for name, picture in drawn.items():
+        write_whole(folder / name, picture, force=force)
+    return list(drawn)
+
+
+def _png(ax: "Axes") -> bytes:
+    figure = ax.get_figure(root=True)
+    assert figure is not None  # axes() made one
+    picture = BytesIO()
+    figure.savefig(picture, format="png", dpi=150, bbox_inches="tight")
+    return picture.getvalue()

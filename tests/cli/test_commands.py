@@ -1,0 +1,195 @@
+"""The command line as a user meets it: what it prints, writes and exits with."""
+
+import json
+import sys
+
+import numpy as np
+import pytest
+
+from windopt.cli import main
+
+FARM = "name,x,y\nA1,0,0\nA2,600,0\nA3,1200,0\nB1,0,700\nB2,600,700\n"
+STATIONS = "id,x,y\nS1,500,300\n"
+WIND = "--wind-speed", "10", "--wind-direction", "90"
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    (tmp_path / "farm.csv").write_text(FARM, encoding="utf-8")
+    (tmp_path / "stations.csv").write_text(STATIONS, encoding="utf-8")
+    time = np.datetime64("2020-01-01T00:00") + np.arange(0, 1440, 5).astype("m8[m]")
+    rows = [f"{t},{8 + np.sin(i / 9):.3f},{(90 + i / 7) % 360:.2f}" for i, t in enumerate(time)]
+    text = "time,speed,direction\n" + "\n".join(rows) + "\n"
+    (tmp_path / "wind.csv").write_text(text, encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+@pytest.fixture
+def windopt(monkeypatch, capsys):
+    """Run a command and return its exit code, output and complaints."""
+
+    def run(*words):
+        monkeypatch.setattr(sys, "argv", ["windopt", *map(str, words)])
+        with pytest.raises(SystemExit) as stop:
+            main()
+        told = capsys.readouterr()
+        return stop.value.code or 0, told.out, told.err
+
+    return run
+
+
+@pytest.mark.parametrize("command", ["demo", "plan", "inspect", "yaw", "check"])
+def test_every_command_has_help(windopt, command):
+    code, out, _ = windopt(command, "--help")
+    assert code == 0
+    assert "Usage" in out
+
+
+def test_it_knows_its_version(windopt):
+    code, out, _ = windopt("--version")
+    assert (code, out) == (0, "windopt 0.1.0\n")
+
+
+@pytest.mark.parametrize("method", ["algorithm-2", "baseline", "time-flow", "route-indexed"])
+def test_inspect_prints_a_record_that_check_passes(windopt, folder, method):
+    code, out, _ = windopt(
+        "inspect", "farm.csv", *WIND, "--stations", "stations.csv", "--method", method, "--json"
+    )
+    record = json.loads(out)
+    assert code == 0
+    promised = [
+        "status",
+        "objective",
+        "bound",
+        "gap",
+        "runtime",
+        "stations",
+        "flights",
+        "unreachable",
+    ]
+    assert set(promised) <= set(record)
+    assert set(record["flights"][0]) >= {"uav", "station", "turbines", "duration"}
+    visited = sorted(name for flight in record["flights"] for name in flight["turbines"])
+    assert visited == ["A1", "A2", "A3", "B1", "B2"]
+    (folder / "record.json").write_text(out, encoding="utf-8")
+    assert windopt("check", "record.json")[0] == 0
+
+
+def test_yaw_prints_a_record_that_check_passes(windopt, folder):
+    code, out, _ = windopt("yaw", "farm.csv", *WIND, "--nacelle", "200", "--json")
+    record = json.loads(out)
+    assert code == 0
+    assert {"status", "power", "power_baseline", "turbines"} <= set(record)
+    assert set(record["turbines"][0]) >= {"name", "yaw", "misalignment", "wind_speed", "power"}
+    (folder / "record.json").write_text(out, encoding="utf-8")
+    assert windopt("check", "record.json")[0] == 0
+
+
+def test_plan_writes_a_folder_that_check_passes(windopt, folder):
+    command = "plan", "farm.csv", "--wind", "wind.csv", "--time", "2020-01-01T12:00"
+    code, out, _ = windopt(*command, "--stations", "stations.csv", "--out", "out")
+    assert code == 0, out
+    record = json.loads((folder / "out" / "plan.json").read_text(encoding="utf-8"))
+    assert len(record["yaw"]) == 8
+    assert {path.suffix for path in (folder / "out").iterdir()} == {".json", ".png"}
+    assert windopt("check", "out/plan.json")[0] == 0
+
+
+def test_nothing_is_overwritten_unless_forced(windopt, folder):
+    command = "inspect", "farm.csv", *WIND, "--out", "out"
+    assert windopt(*command)[0] == 0
+    before = (folder / "out" / "plan.json").read_bytes()
+    code, _, err = windopt(*command)
+    assert code == 2
+    assert "--force" in err
+    assert (folder / "out" / "plan.json").read_bytes() == before
+    assert windopt(*command, "--force")[0] == 0
+
+
+def test_a_broken_plan_fails_its_check_with_code_1(windopt, folder):
+    windopt("inspect", "farm.csv", *WIND, "--out", "out")
+    path = folder / "out" / "plan.json"
+    record = json.loads(path.read_text(encoding="utf-8"))
+    record["flights"][0]["duration"] /= 2
+    path.write_text(json.dumps(record), encoding="utf-8")
+    code, out, err = windopt("check", path)
+    assert code == 1
+    assert "failed" in out
+    assert "said to last" in err
+    report = json.loads(windopt("check", path, "--json")[1])
+    assert not report["passed"]
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        ("--wind-speed", "16", "--wind-direction", "90"),
+        ("--wind-speed", "20", "--wind-direction", "90", "--wind-max", "30"),
+        (*WIND, "--dwell", "2000"),
+    ],
+)
+def test_where_nothing_can_fly_the_unreachable_are_listed_with_code_1(windopt, folder, options):
+    command = "inspect", "farm.csv", "--stations", "stations.csv"
+    code, out, _ = windopt(*command, *options)
+    assert code == 1
+    assert out.count("Unreachable:") == 5
+    record = json.loads(windopt(*command, *options, "--json")[1])
+    assert record["unreachable"] == ["A1", "A2", "A3", "B1", "B2"]
+    assert record["flights"] == []
+
+
+BAD = {
+    "wind speed": ("inspect", "farm.csv", "--wind-speed", "nan", "--wind-direction", "90"),
+    "wind direction": ("yaw", "farm.csv", "--wind-speed", "8", "--wind-direction", "inf"),
+    "method": ("inspect", "farm.csv", *WIND, "--method", "magic"),
+    "dwell": ("inspect", "farm.csv", *WIND, "--dwell", "-1"),
+    "t_max": ("inspect", "farm.csv", *WIND, "--t-max", "0"),
+    "airspeed": ("inspect", "farm.csv", *WIND, "--airspeed", "nan"),
+    "--stations": ("inspect", "farm.csv", *WIND, "--stations", "nowhere.csv"),
+    "stations": ("inspect", "farm.csv", *WIND, "--stations", "99"),
+    "farm": ("inspect", "Atlantis", *WIND),
+    "--time": ("plan", "farm.csv", "--wind", "wind.csv", "--time", "yesterday"),
+    "time": ("plan", "farm.csv", "--wind", "wind.csv", "--time", "1999-01-01"),
+    "forecaster": ("plan", "farm.csv", "--wind", "wind.csv", "--forecaster", "magic"),
+    "nothing.csv": ("plan", "farm.csv", "--wind", "nothing.csv"),
+    "nothing.json": ("check", "nothing.json"),
+    "power_coefficient": ("yaw", "farm.csv", *WIND, "--power-coefficient", "magic"),
+    "air_density": ("yaw", "farm.csv", *WIND, "--air-density", "-1"),
+}
+
+
+@pytest.mark.parametrize("field", BAD)
+def test_bad_input_is_named_with_code_2(windopt, folder, field):
+    code, out, err = windopt(*BAD[field])
+    assert code == 2
+    assert field in err
+    assert "Traceback" not in out + err
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("empty.csv", "name,x,y\n"),
+        ("twice.csv", "name,x,y\nA1,0,0\nA1,5,5\n"),
+        ("nan.csv", "name,x,y\nA1,0,nan\n"),
+        ("cut.yaml", "name: cut\nwind_farm:\n  layouts: {coordinates: {x: [1, 2"),
+        ("other.yaml", "name: other\n"),
+        ("binary.csv", "\x00\x01\x02"),
+    ],
+)
+def test_a_farm_that_cannot_be_read_is_named_with_code_2(windopt, folder, name, text):
+    (folder / name).write_text(text, encoding="utf-8")
+    code, out, err = windopt("inspect", name, *WIND)
+    assert code == 2
+    assert err.startswith("Expected ")
+    assert "Traceback" not in out + err
+
+
+def test_the_demo_plans_the_built_in_farm(windopt, folder):
+    code, out, _ = windopt("demo", "--out", "demo")
+    assert code == 0
+    assert "check demo/plan.json" in out
+    written = {path.name for path in (folder / "demo").iterdir()}
+    assert written >= {"plan.json", "flights.geojson", "flights.png", "yaw.png", "forecast.png"}
+    assert windopt("check", "demo/plan.json")[0] == 0
