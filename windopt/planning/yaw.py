@@ -75,9 +75,8 @@ class _Case:
 
     def by_rule(self) -> OperatingPoint:
         """How the paper's rule runs it; parked, with its yaw held, where there is no power."""
-        if not self.running:
-            return OperatingPoint(self.gamma_0, 0.0, FEATHERED, 0.0)
-        return algorithm_1(self.model, self.gamma_0, **self.limits)
+        running = algorithm_1(self.model, self.gamma_0, **self.limits)
+        return running if self.running else OperatingPoint(self.gamma_0, 0.0, FEATHERED, 0.0)
 
     @property
     def kept_by_rule(self) -> bool:
@@ -173,25 +172,18 @@ def _misalignments(n: int, wind: Wind, nacelle: float | Sequence[float] | None) 
 
 def _improve(points: dict[_Case, OperatingPoint], deadline: float, seed: int) -> tuple[Status, str]:
     """Replace the operating points of running turbines by those of the program."""
-    left_out = 0
+    left = ""
     for case in points:
         if not case.running:
             continue
         found = _solve(case, deadline, seed)
         if found.solution is not None:
             points[case] = found.solution
+        else:
+            left = f"Some turbines follow the paper's rule. {found.reason}".strip()
         if found.status is Status.INTERRUPTED:
-            return (
-                Status.INTERRUPTED,
-                "Undecided turbines follow the paper's rule.",
-            )
-        left_out += found.solution is None
-    if left_out:
-        reason = (
-            f"{left_out} of {len(points)} kinds of turbines follow the paper's rule, undecided."
-        )
-        return Status.FEASIBLE, reason
-    return Status.LOCALLY_OPTIMAL, ""
+            return found.status, "Turbines not decided before the stop follow the paper's rule."
+    return (Status.FEASIBLE if left else Status.LOCALLY_OPTIMAL), left
 
 
 def _solve(case: _Case, deadline: float, seed: int) -> Result[OperatingPoint]:
