@@ -1,7 +1,7 @@
 r"""What a rotor makes of the wind: power coefficients and power.
 
 The paper names :math:`C_p(\lambda, \beta)` without giving it; four published models of one
-family stand here,
+family stand here ([1]_, [2]_, [3]_, [4]_),
 
 .. math::
 

@@ -1,11 +1,11 @@
 r"""Algorithm 2: reassign turbines by the flying ranges in this wind, then route UAV by UAV.
 
-1.     start from the turbines :math:`N_i` that each UAV looks after
-2.     move the circle :math:`B_i` of each UAV with the wind
-3.     intersect both circles: :math:`Z_i`
-4-10.  give turbines outside :math:`Z_i` to the nearest UAV j that has them in :math:`Z_j`
-11-12. find the shortest tour of each UAV by branch and cut, without a limit on its time
-13.    split the tour into flights of :math:`t_i^{\max}` at most
+| 1.     start from the turbines :math:`N_i` that each UAV looks after
+| 2.     move the circle :math:`B_i` of each UAV with the wind
+| 3.     intersect both circles: :math:`Z_i`
+| 4-10.  give turbines outside :math:`Z_i` to the nearest UAV j that has them in :math:`Z_j`
+| 11-12. find the shortest tour of each UAV by branch and cut, without a limit on its time
+| 13.    split the tour into flights of :math:`t_i^{\max}` at most
 
 The circles are not the set from which a UAV can return, so here a turbine counts as in range only
 if its own round trip is short enough too. Otherwise line 13 could not split the tour.
