@@ -37,7 +37,7 @@ def test_turbines_may_have_ratings_of_their_own():
 def test_a_name_given_twice_is_told_apart():
     farm = load_farm("Hornsea 2")
     assert {"D36", "D36 (2)"} <= set(farm.names)
-    assert "Names given twice are told apart: D36 (2)." in farm.notes
+    assert "Names given twice, told apart: D36 (2)." in farm.notes
 
 
 def test_coordinates_that_cannot_be_metres_are_noted():

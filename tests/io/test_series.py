@@ -153,9 +153,9 @@ def test_what_cannot_be_true_is_masked_and_counted(write):
     series = read_series(write(table(*rows)))
     np.testing.assert_array_equal(series.valid, [False] * 7 + [True, True])
     np.testing.assert_allclose(series.theta_met[-2:], [radians(270), radians(90)])
-    assert "3 values of 'speed' beyond 0 to 100 are masked." in series.notes
-    assert "2 values of 'direction' beyond -360 to 720 are masked." in series.notes
-    assert "7 rows have no valid speed or direction." in series.notes
+    assert "Values of 'speed' beyond 0 to 100, masked: 3." in series.notes
+    assert "Values of 'direction' beyond -360 to 720, masked: 2." in series.notes
+    assert "Rows without a valid speed or direction: 7 of 9." in series.notes
 
 
 def test_gaps_are_filled_with_missing_values(write):
@@ -163,22 +163,22 @@ def test_gaps_are_filled_with_missing_values(write):
     series = read_series(write(table(*rows)))
     assert series.step_seconds == 300
     np.testing.assert_array_equal(series.speed, [0, 5, 10, np.nan, np.nan, np.nan, 30, 35])
-    assert "3 of 8 steps have no row and are missing values." in series.notes
+    assert "Steps without a row, kept as missing values: 3 of 8." in series.notes
 
 
 def test_rows_off_the_grid_move_to_the_nearest_step(write):
     stamps = ("00:00", "00:10", "00:20", "00:31", "00:40", "00:42", "00:50")
     series = read_series(write(table(*(f"2020-01-01T{t},{i},0" for i, t in enumerate(stamps)))))
     assert series.speed.tolist() == [0, 1, 2, 3, 5, 6]
-    assert "2 rows lay between two steps and were moved to the nearest." in series.notes
-    assert "1 rows shared a step with a later one and were left out." in series.notes
+    assert "Rows between two steps, moved to the nearest: 2." in series.notes
+    assert "Rows that share a step with a later one, left out: 1." in series.notes
 
 
 def test_a_reversed_file_is_turned_round(write):
     text = table(*FOUR).splitlines()
     series = read_series(write("\n".join([text[0], *reversed(text[1:])])))
     assert series.speed.tolist() == [5, 6, 7, 8]
-    assert "The rows ran backwards in time and were turned round." in series.notes
+    assert "The rows run backwards in time and were turned round." in series.notes
 
 
 @pytest.mark.parametrize(

@@ -9,13 +9,13 @@ from windopt.io.turbine_names import distinct_names
 def test_nameless_turbines_are_numbered_by_their_place():
     names, notes = distinct_names(["A1", None, ""])
     assert names == ["A1", "T02", "T03"]
-    assert notes == ("2 turbines have no name and are numbered in the source's order.",)
+    assert notes == ("Turbines without a name, numbered in the source's order: 2.",)
 
 
 def test_the_second_of_a_name_says_so():
     names, notes = distinct_names(["D36", "D36", "D36", "D37"])
     assert names == ["D36", "D36 (2)", "D36 (3)", "D37"]
-    assert notes == ("Names given twice are told apart: D36 (2), D36 (3).",)
+    assert notes == ("Names given twice, told apart: D36 (2), D36 (3).",)
 
 
 def test_good_names_stay_without_a_note():

@@ -66,9 +66,9 @@ def regular_steps(time: Times) -> tuple[Times, Rows, tuple[str, ...]]:
     gaps, met = length - filled, len(place) - filled
     moved = int(np.count_nonzero(elapsed != place * step))
     if gaps:
-        notes.append(f"{gaps} of {length} steps have no row and are missing values.")
+        notes.append(f"Steps without a row, kept as missing values: {gaps} of {length}.")
     if moved:
-        notes.append(f"{moved} rows lay between two steps and were moved to the nearest.")
+        notes.append(f"Rows between two steps, moved to the nearest: {moved}.")
     if met:
-        notes.append(f"{met} rows shared a step with a later one and were left out.")
+        notes.append(f"Rows that share a step with a later one, left out: {met}.")
     return grid, place, tuple(notes)

@@ -54,9 +54,9 @@ def read_series(
     theta_series[place] = np.radians(theta[order] % 360.0)
     notes = [*clock_notes, *speed_notes, *direction_notes, *grid_notes]
     if order.step < 0:
-        notes.append("The rows ran backwards in time and were turned round.")
+        notes.append("The rows run backwards in time and were turned round.")
     if missing:
-        notes.append(f"{missing} rows have no valid speed or direction.")
+        notes.append(f"Rows without a valid speed or direction: {missing} of {len(v)}.")
     facts = ", ".join(f"{key} {value}" for key, value in site.items())
     source = f"{file.path.name} ({facts})" if facts else file.path.name
     return WindSeries(grid, speed_series, theta_series, timezone, source, tuple(notes))
@@ -82,5 +82,5 @@ def _masked(column: Column, low: float, high: float) -> tuple[Floats, Notes]:
     numbers = column.numbers(missing=True)
     beyond = (numbers < low) | (numbers > high)
     count = int(np.count_nonzero(beyond))
-    note = f"{count} values of {column.name!r} beyond {low:g} to {high:g} are masked."
+    note = f"Values of {column.name!r} beyond {low:g} to {high:g}, masked: {count}."
     return np.where(beyond, np.nan, numbers), (note,) if count else ()

@@ -30,7 +30,7 @@ def distinct_names(labels: Sequence[str | None]) -> tuple[list[str], tuple[str, 
     repeated = [name for name, label in zip(names, given, strict=True) if label not in ("", name)]
     notes = []
     if numbered:
-        notes.append(f"{numbered} turbines have no name and are numbered in the source's order.")
+        notes.append(f"Turbines without a name, numbered in the source's order: {numbered}.")
     if repeated:
-        notes.append(f"Names given twice are told apart: {', '.join(repeated[:5])}.")
+        notes.append(f"Names given twice, told apart: {', '.join(repeated[:5])}.")
     return names, tuple(notes)
