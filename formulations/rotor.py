@@ -1,7 +1,7 @@
 r"""What a rotor makes of the wind: power coefficients and power.
 
-The paper names :math:`C_p(\lambda, \beta)` without giving it; four published models of one
-family stand here ([1]_, [2]_, [3]_, [4]_),
+The paper names :math:`C_p(\lambda, \beta)` without giving it. Four published models stand here,
+members of one family,
 
 .. math::
 
@@ -10,17 +10,17 @@ family stand here ([1]_, [2]_, [3]_, [4]_),
     \frac{1}{\lambda_i} &= \frac{1}{\lambda + c_8 \beta} - \frac{c_9}{\beta^3 + 1}  \tag{2}
 
 with :math:`\lambda` the tip-speed ratio and :math:`\beta` the blade pitch in degrees, as in the
-sources (the paper's own text swaps the two names). Both are kept inside the box
-:data:`TIP_SPEED_RATIO` x :data:`PITCH`: below it :math:`\lambda + c_8 \beta` meets zero, and at
-:math:`\beta = -1` (2) has a pole. Inside it every model is smooth and has a single hump. A
-negative :math:`C_p` is returned as it is: such a rotor would have to be driven.
+sources (the paper's own text swaps the two names). Both are kept inside a box, 1 to 15 and 0 to
+30 degrees: below it :math:`\lambda + c_8 \beta` meets zero, and (2) has a pole at
+:math:`\beta = -1`. Inside it every model is smooth and has a single hump. A negative :math:`C_p` is
+returned as it is: such a rotor would have to be driven.
 
-.. [1] Slootweg, de Haan, Polinder & Kling (2003), General model for representing variable speed
-   wind turbines in power system dynamics simulations, *IEEE Trans. Power Systems* 18, 144-151.
-.. [2] Heier (2006), *Grid Integration of Wind Energy Conversion Systems*, 2nd ed., Wiley.
-.. [3] MathWorks, *Wind Turbine* block, Simscape Electrical, Specialized Power Systems.
-.. [4] Dai, Liu, Wen & Long (2016), Research on power coefficient of wind turbines based on
-   SCADA data, *Renewable Energy* 86, 206-215.
+- *slootweg*: Slootweg, de Haan, Polinder & Kling (2003), General model for representing variable
+  speed wind turbines in power system dynamics simulations, *IEEE Trans. Power Systems* 18, 144-151;
+- *heier*: Heier (2006), *Grid Integration of Wind Energy Conversion Systems*, 2nd ed., Wiley;
+- *mathworks*: MathWorks, *Wind Turbine* block, Simscape Electrical, Specialized Power Systems;
+- *dai*: Dai, Liu, Wen & Long (2016), Research on power coefficient of wind turbines based on SCADA
+  data, *Renewable Energy* 86, 206-215.
 """
 
 from dataclasses import dataclass
@@ -90,10 +90,10 @@ class PowerCoefficient:
 
 
 MODELS: dict[str, PowerCoefficient] = {
-    "slootweg": PowerCoefficient(0.73, 151, 0.58, 0.002, 2.14, 13.2, 18.4, 0, -0.02, 0.003),  # [1]
-    "heier": PowerCoefficient(0.5, 116, 0.4, 0, 1, 5, 21, 0, 0.089, 0.035),  # [2]
-    "mathworks": PowerCoefficient(0.5176, 116, 0.4, 0, 1, 5, 21, 0.0068, 0.08, 0.035),  # [3]
-    "dai": PowerCoefficient(0.22, 120, 0.4, 0, 1, 5, 12.5, 0, 0.08, 0.035),  # [4]
+    "slootweg": PowerCoefficient(0.73, 151, 0.58, 0.002, 2.14, 13.2, 18.4, 0, -0.02, 0.003),
+    "heier": PowerCoefficient(0.5, 116, 0.4, 0, 1, 5, 21, 0, 0.089, 0.035),
+    "mathworks": PowerCoefficient(0.5176, 116, 0.4, 0, 1, 5, 21, 0.0068, 0.08, 0.035),
+    "dai": PowerCoefficient(0.22, 120, 0.4, 0, 1, 5, 12.5, 0, 0.08, 0.035),
 }
 """The published models, by name."""
 

@@ -58,7 +58,7 @@ class TurbineYaw:
 
 
 def turbine_yaw(C_p: PowerCoefficient, *, rho: float, A: float, p_rated: float) -> TurbineYaw:
-    """Build the program (1)-(6) once, for any wind.
+    """Build the program (1)-(5) once, for any wind.
 
     Parameters
     ----------

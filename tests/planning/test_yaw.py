@@ -89,7 +89,7 @@ def test_mirrored_nacelles_mirror_the_plan():
 
 @pytest.mark.parametrize("method", METHODS)
 def test_power_is_zero_and_the_yaw_held_outside_cut_in_and_cut_out(method):
-    for speed in 0.0, 2.99, 25.0, 40.0:
+    for speed in 0.0, 2.99, 25.0, 40.0, 1e200:
         result = plan_yaw(FARM, Wind.from_met(speed, 90.0), nacelle=1.0, method=method)
         assert result.objective == result.bound == 0.0
         assert result.status is Status.OPTIMAL
@@ -165,6 +165,15 @@ def test_equal_turbines_are_solved_once(monkeypatch):
     farm = Farm("Many", tuple(Turbine(f"T{i}", 900.0 * i, 0.0) for i in range(165)))
     plan_yaw(farm, Wind.from_met(9.0, 0.0))
     assert len(calls) == 1
+
+
+def test_further_starts_are_drawn_where_the_bound_is_not_reached(monkeypatch):
+    monkeypatch.setattr(yaw, "GAP", -1.0)  # out of reach
+    wind = Wind.from_met(14.0, 90.0)
+    results = [plan_yaw(FARM, wind, nacelle=2.5, seed=seed) for seed in (0, 0, 1)]
+    assert {result.status for result in results} == {Status.LOCALLY_OPTIMAL}
+    assert results[0].found() == results[1].found()
+    assert results[2].objective == pytest.approx(results[2].bound, rel=1e-8)
 
 
 def test_the_same_inputs_give_the_same_plan():

@@ -48,12 +48,14 @@ class _Case:
     w: float
     rho: float
 
-    @property
-    def model(self) -> PowerCoefficient:
+    def __post_init__(self) -> None:
         name = self.type.power_coefficient
         if name not in MODELS:
             raise InvalidInput("power_coefficient", f"to be one of {', '.join(MODELS)}", repr(name))
-        return MODELS[name]
+
+    @property
+    def model(self) -> PowerCoefficient:
+        return MODELS[self.type.power_coefficient]
 
     @property
     def limits(self) -> dict[str, float]:
@@ -75,8 +77,9 @@ class _Case:
 
     def by_rule(self) -> OperatingPoint:
         """How the paper's rule runs it; parked, with its yaw held, where there is no power."""
-        running = algorithm_1(self.model, self.gamma_0, **self.limits)
-        return running if self.running else OperatingPoint(self.gamma_0, 0.0, FEATHERED, 0.0)
+        if not self.running:
+            return OperatingPoint(self.gamma_0, 0.0, FEATHERED, 0.0)
+        return algorithm_1(self.model, self.gamma_0, **self.limits)
 
     @property
     def kept_by_rule(self) -> bool:
