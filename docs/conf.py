@@ -1,5 +1,6 @@
 """How Sphinx builds these pages: ``sphinx-build -W -n -b html docs docs/_build/html``."""
 
+import re
 from collections.abc import Iterator
 from functools import partial
 from pathlib import Path
@@ -7,9 +8,11 @@ from typing import Any
 
 import matplotlib
 from docutils.nodes import Node
+from numpy.typing import ArrayLike
 from sphinx.addnodes import pending_xref
 from sphinx.application import Sphinx
 from sphinx.environment import BuildEnvironment
+from sphinx.util.typing import stringify_annotation
 from typer.main import get_command
 from typer.testing import CliRunner
 
@@ -61,13 +64,37 @@ html_theme_options = {
 }
 html_show_sourcelink = False
 
-# Names of other packages in our signatures: their pages are not fetched, so that the build needs
-# no network. Type variables are no objects of their own.
+# Pages of other packages are not fetched, so that the build needs no network; a type variable has
+# no page.
 nitpick_ignore_regex = [
-    (r"py:.*", r"(numpy|np|scipy|highspy|casadi|ca|matplotlib|typer|pathlib|collections)\..*"),
-    (r"py:.*", r"(NDArray|ArrayLike|HighspyArray|highs_linear_expression|Axes|Path|StrEnum)"),
+    (r"py:class", r"(collections|pathlib)\..*"),  # standard library
+    (r"py:class", r"(casadi|highspy|numpy|scipy)\..*"),
+    (r"py:class", r"Axes"),  # matplotlib's, imported for type checkers only
     (r"py:class", r"windopt\.result\.(Solution|Other)"),
 ]
+
+ARRAY = re.compile(r"~numpy\.ndarray\[tuple\[~typing\.Any, \.\.\.\], ~numpy\.dtype\[(~[\w.]+)\]\]")
+ARRAY_LIKE = stringify_annotation(ArrayLike, "smart")
+
+
+def shorten_arrays(
+    app: Sphinx,
+    what: str,
+    name: str,
+    obj: Any,
+    options: Any,
+    arguments: str | None,
+    out: str | None,
+) -> tuple[str | None, str | None]:
+    """Write the types of arrays as the source does: ``NDArray[float64]``, ``ArrayLike``."""
+
+    def short(signature: str | None) -> str | None:
+        if signature is None:
+            return None
+        signature = ARRAY.sub(r"~numpy.typing.NDArray[\1]", signature)
+        return signature.replace(ARRAY_LIKE, "~numpy.typing.ArrayLike")
+
+    return short(arguments), short(out)
 
 
 def commands_below(command: Any, path: tuple[str, ...] = ()) -> Iterator[tuple[str, ...]]:
@@ -102,5 +129,6 @@ def resolve_public_name(
 
 def setup(app: Sphinx) -> None:
     """Connect the functions above."""
+    app.connect("autodoc-process-signature", shorten_arrays)
     app.connect("builder-inited", write_command_line)
     app.connect("missing-reference", resolve_public_name)
