@@ -89,7 +89,7 @@ def test_mirrored_nacelles_mirror_the_plan():
 
 @pytest.mark.parametrize("method", METHODS)
 def test_power_is_zero_and_the_yaw_held_outside_cut_in_and_cut_out(method):
-    for speed in 0.0, 2.99, 25.0, 40.0, 1e200:
+    for speed in 0.0, 2.99, 25.0, 40.0, 1e50:
         result = plan_yaw(FARM, Wind.from_met(speed, 90.0), nacelle=1.0, method=method)
         assert result.objective == result.bound == 0.0
         assert result.status is Status.OPTIMAL
