@@ -77,24 +77,12 @@ ARRAY = re.compile(r"~numpy\.ndarray\[tuple\[~typing\.Any, \.\.\.\], ~numpy\.dty
 ARRAY_LIKE = stringify_annotation(ArrayLike, "smart")
 
 
-def shorten_arrays(
-    app: Sphinx,
-    what: str,
-    name: str,
-    obj: Any,
-    options: Any,
-    arguments: str | None,
-    out: str | None,
-) -> tuple[str | None, str | None]:
+def shorten_arrays(*event: Any) -> tuple[str, str]:
     """Write the types of arrays as the source does: ``NDArray[float64]``, ``ArrayLike``."""
-
-    def short(signature: str | None) -> str | None:
-        if signature is None:
-            return None
-        signature = ARRAY.sub(r"~numpy.typing.NDArray[\1]", signature)
-        return signature.replace(ARRAY_LIKE, "~numpy.typing.ArrayLike")
-
-    return short(arguments), short(out)
+    *_, arguments, returned = (part or "" for part in event)
+    arguments = arguments.replace(ARRAY_LIKE, "~numpy.typing.ArrayLike")
+    array = r"~numpy.typing.NDArray[\1]"
+    return ARRAY.sub(array, arguments), ARRAY.sub(array, returned)
 
 
 def commands_below(command: Any, path: tuple[str, ...] = ()) -> Iterator[tuple[str, ...]]:
