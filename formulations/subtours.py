@@ -60,7 +60,9 @@ def violated_sets(x: NDArray[np.float64], tol: float = 1e-4) -> Iterator[Nodes]:
             yield S
 
 
-def subtour_row(x: HighspyArray, S: Nodes, flown: NDArray[np.bool_]) -> highs_linear_expression:
+def inflow_row(
+    x: HighspyArray, S: Nodes, flown: NDArray[np.bool_], least: int = 1
+) -> highs_linear_expression:
     """Return the row (1) of ``S``, in whichever of its two forms has fewer terms.
 
     Parameters
@@ -72,13 +74,15 @@ def subtour_row(x: HighspyArray, S: Nodes, flown: NDArray[np.bool_]) -> highs_li
         Nodes other than 0.
     flown
         Arcs that take part, of the shape of ``x``.
+    least
+        How much flows into S at least.
     """
     within = np.isin(np.arange(x.shape[-1]), S)
     inside = flown & within[:, None] & within
     into = flown & ~within[:, None] & within
     if np.count_nonzero(inside) <= np.count_nonzero(into):
-        return x[inside].sum() <= len(S) - 1
-    return x[into].sum() >= 1
+        return x[inside].sum() <= len(S) - least
+    return x[into].sum() >= least
 
 
 def _sink_side(residual: csr_array, v: int) -> Nodes:

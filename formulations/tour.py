@@ -25,7 +25,7 @@ from highspy.highs import HighspyArray, highs_linear_expression
 from numpy.typing import NDArray
 
 from formulations.flights import flights
-from formulations.subtours import subtour_row, violated_sets
+from formulations.subtours import inflow_row, violated_sets
 
 
 @dataclass(frozen=True)
@@ -39,7 +39,7 @@ class Tour:
 
     def cuts(self, x: NDArray[np.float64]) -> Iterator[highs_linear_expression]:
         """Yield the rows (4) that ``x``, fractional or not, violates."""
-        return (subtour_row(self.x, S, self.flown) for S in violated_sets(x))
+        return (inflow_row(self.x, S, self.flown) for S in violated_sets(x))
 
     def routes(self, x: NDArray[np.float64]) -> list[tuple[int, tuple[int, ...]]]:
         """Return the tour as the one flight of station 0: its turbines in order, from 0."""

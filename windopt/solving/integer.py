@@ -87,8 +87,9 @@ def solve(
 
     search = _Search(program, time_limit, progress)
     try:
+        search.begin(program.start if start is None else start)
         search.relax()
-        search.branch(program.start if start is None else start)
+        search.branch()
     except KeyboardInterrupt:
         search.interrupted = True
     return search.result()
@@ -102,10 +103,11 @@ class _Search:
     time_limit: float
     progress: Progress | None
     began: float = field(default_factory=perf_counter)
-    x: NDArray[np.float64] | None = None
+    values: NDArray[np.float64] | None = None  # of all columns, at the best solution
     objective: float = inf
     bound: float = -inf
     proof: str = ""
+    shown: tuple[float, float] = (inf, -inf)  # objective and bound last reported
     reason: str = ""
     optimal: bool = False
     infeasible: bool = False
@@ -119,6 +121,26 @@ class _Search:
         )
         self.column = np.array([v.index for v in self.program.x.flat], dtype=np.int32)
 
+    def begin(self, start: NDArray[np.float64] | None) -> None:
+        """Keep ``start`` if the other columns can follow it.
+
+        HiGHS could complete it too, but reports bounds of that smaller program while it does.
+        """
+        if start is None:
+            return
+        model, lp = self.program.model, self.program.model.getLp()
+        column, value = self.column, np.ravel(start).astype(float)
+        lower, upper = np.asarray(lp.col_lower_)[column], np.asarray(lp.col_upper_)[column]
+        if (value < lower).any() or (value > upper).any():
+            return
+        model.setOptionValue("solve_relaxation", True)
+        model.changeColsBounds(column.size, column, value, value)
+        if self._run(self.time_limit) == HIGHS.kOptimal:
+            self._keep(self._values())
+        model.changeColsBounds(column.size, column, lower, upper)
+        model.clearSolver()
+        self.infeasible, self.reason = False, ""
+
     def relax(self) -> None:
         """Solve the relaxation until it keeps every row or has had its share of the time."""
         model, limit = self.program.model, RELAXATION_SHARE * self.time_limit
@@ -128,13 +150,13 @@ class _Search:
             if not self._add_violated(self._values(), limit):
                 break
 
-    def branch(self, start: NDArray[np.float64] | None) -> None:
+    def branch(self) -> None:
         """Solve the integer program until its optimum keeps every row."""
         model = self.program.model
         model.setOptionValue("solve_relaxation", False)
         while not self.infeasible:
-            if (begin := start if self.x is None else self.x) is not None:
-                model.setSolution(self.column.size, self.column, np.ravel(begin).astype(float))
+            if self.values is not None:
+                model.setSolution(self.values.size, np.arange(self.values.size), self.values)
             status = self._run(self.time_limit)
             if status not in (HIGHS.kOptimal, HIGHS.kTimeLimit, HIGHS.kInterrupt):
                 break
@@ -143,8 +165,7 @@ class _Search:
                 break
             values = self._rounded(self._values())
             if not self._add_violated(values, self.time_limit):
-                self._keep(values)
-                self.optimal = self.x is not None
+                self.optimal = self._keep(values)
                 break
 
     def result(self) -> Result[NDArray[np.float64]]:
@@ -157,9 +178,10 @@ class _Search:
         elif self.interrupted:
             status = Status.INTERRUPTED
         else:
-            status = Status.NO_SOLUTION if self.x is None else Status.FEASIBLE
+            status = Status.NO_SOLUTION if self.values is None else Status.FEASIBLE
+        x = None if self.values is None else self._x(self.values)
         bound = min(self.bound, self.objective)
-        return Result(status, self.x, self.objective, bound, runtime, self.proof, self.reason)
+        return Result(status, x, self.objective, bound, runtime, self.proof, self.reason)
 
     def _run(self, limit: float) -> highspy.HighsModelStatus:
         """Run HiGHS until ``limit`` at most, and return how it ended."""
@@ -175,31 +197,35 @@ class _Search:
         return status
 
     def _hear(self, news: News) -> None:
-        """Take in what HiGHS has found so far."""
-        self._raise_bound(news.bound, "branch and cut")
+        """Take in what HiGHS has found so far; its bound counts once the run has ended."""
         if news.values is not None:
-            values = self._rounded(news.values)
-            if next(self.program.cuts(self._x(values)), None) is None:
-                self._keep(values)
+            self._keep(news.values)
+        self._report(news.bound)
 
     def _raise_bound(self, bound: float, proof: str) -> None:
         if bound > self.bound:
             self.bound, self.proof = bound, f"HiGHS, {proof}"
-            self._report()
+            self._report(bound)
 
-    def _keep(self, values: NDArray[np.float64]) -> None:
-        """Keep a solution that breaks no row left out, if it breaks none of the others either."""
+    def _keep(self, values: NDArray[np.float64]) -> bool:
+        """Keep the solution if it is the best, and return whether it keeps every row."""
+        values = self._rounded(values)
+        if next(self.program.cuts(self._x(values)), None) is not None:
+            return False
         if (violation := largest_violation(self.program.model, values)) > TOLERANCE:
             self.reason = f"HiGHS returned a solution that breaks a row by {violation:.2g}."
-            return
+            return False
         objective = float(self.cost @ values) + self.offset
         if objective < self.objective:
-            self.objective, self.x, self.reason = objective, self._x(values), ""
-            self._report()
+            self.objective, self.values, self.reason = objective, values, ""
+            self._report(self.bound)
+        return True
 
-    def _report(self) -> None:
-        if self.progress is not None:
-            self.progress(self.objective, self.bound)
+    def _report(self, bound: float) -> None:
+        shown = self.objective, min(max(bound, self.shown[1]), self.objective)
+        if self.progress is not None and shown != self.shown:
+            self.shown = shown
+            self.progress(*shown)
 
     def _add_violated(self, values: NDArray[np.float64], limit: float) -> int:
         """Add the rows that ``values`` break, as far as time allows, and return how many."""
