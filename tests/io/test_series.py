@@ -3,6 +3,7 @@
 import gzip
 from contextlib import suppress
 from math import radians
+from time import process_time
 
 import numpy as np
 import pytest
@@ -235,6 +236,16 @@ def test_a_missing_file_and_a_folder_are_refused(tmp_path):
 def test_a_degree_sign_in_an_old_encoding_is_no_obstacle(write):
     text = table(*FOUR, header="time,speed,direction (°)")
     assert len(read_series(write(text.encode("latin-1")))) == 4
+
+
+@pytest.mark.slow
+def test_a_million_rows_are_read_in_seconds(write):
+    times = np.datetime64("2000-01-01T00:00") + np.arange(10**6)
+    rows = (f"{time},{i % 25},{i % 360}" for i, time in enumerate(times.astype(str).tolist()))
+    path = write("\n".join(["time,speed,direction", *rows]))
+    start = process_time()
+    assert len(read_series(path)) == 10**6
+    assert process_time() - start < 30  # 5 s on a laptop
 
 
 CELLS = st.sampled_from(

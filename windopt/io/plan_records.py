@@ -86,6 +86,14 @@ def _finite(number: float) -> float | None:
     return float(number) if isfinite(number) else None
 
 
+def _degrees(radians: float) -> float:
+    """Return an angle in degrees, rounded so that a plan read back gives the same record.
+
+    The way to radians and back errs by some 1e-13 degrees.
+    """
+    return round(degrees(radians), 12)
+
+
 def _outcome(result: Result[Any]) -> Record:
     return {
         "status": str(result.status),
@@ -125,7 +133,7 @@ def _wind(wind: Wind) -> Record:
     """Speed and direction for people; u and v are what is read back."""
     return {
         "speed": wind.speed,
-        "direction": degrees(wind.theta_met),
+        "direction": _degrees(wind.theta_met),
         "u": float(wind.u),
         "v": float(wind.v),
     }
@@ -163,9 +171,9 @@ def _flight(flight: Flight) -> Record:
 def _set_point(point: SetPoint, rated_power: float) -> Record:
     return {
         "name": point.turbine,
-        "yaw": degrees(point.nacelle),
-        "misalignment": degrees(point.misalignment),
-        "pitch": degrees(point.pitch),
+        "yaw": _degrees(point.nacelle),
+        "misalignment": _degrees(point.misalignment),
+        "pitch": _degrees(point.pitch),
         "tip_speed_ratio": float(point.tip_speed_ratio),
         "wind_speed": float(point.wind_speed),
         "power": float(point.power),
@@ -180,7 +188,7 @@ def _forecast(forecast: WindForecast) -> Record:
         "issued": str(forecast.issued),
         "method": forecast.method,
         "steps": [
-            {"time": str(time), "wind_speed": float(speed), "wind_direction": degrees(theta)}
+            {"time": str(time), "wind_speed": float(speed), "wind_direction": _degrees(theta)}
             for time, speed, theta in steps
         ],
         "notes": list(forecast.notes),
