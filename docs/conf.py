@@ -77,12 +77,14 @@ ARRAY = re.compile(r"~numpy\.ndarray\[tuple\[~typing\.Any, \.\.\.\], ~numpy\.dty
 ARRAY_LIKE = stringify_annotation(ArrayLike, "smart")
 
 
-def shorten_arrays(*event: Any) -> tuple[str, str]:
+def shorten_arrays(*event: Any) -> tuple[str | None, ...]:
     """Write the types of arrays as the source does: ``NDArray[float64]``, ``ArrayLike``."""
-    *_, arguments, returned = (part or "" for part in event)
-    arguments = arguments.replace(ARRAY_LIKE, "~numpy.typing.ArrayLike")
-    array = r"~numpy.typing.NDArray[\1]"
-    return ARRAY.sub(array, arguments), ARRAY.sub(array, returned)
+
+    def short(signature: str) -> str:
+        named = signature.replace(ARRAY_LIKE, "~numpy.typing.ArrayLike")
+        return ARRAY.sub(r"~numpy.typing.NDArray[\1]", named)
+
+    return tuple(part and short(part) for part in event[-2:])  # arguments, returned type
 
 
 def commands_below(command: Any, path: tuple[str, ...] = ()) -> Iterator[tuple[str, ...]]:
