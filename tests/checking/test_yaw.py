@@ -67,3 +67,7 @@ def test_both_power_coefficients_agree_though_written_apart(model):
             theirs = float(MODELS[model](tip_speed_ratio, pitch))
             ours = power_coefficient(model, tip_speed_ratio, pitch)
             assert max(ours, 0.0) == pytest.approx(max(theirs, 0.0), abs=1e-12)
+
+
+def test_an_absurd_wind_is_a_violation_not_an_error():
+    assert not check(replace(broken(wind_speed=1e200), wind=Wind.from_met(1e200, 350.0))).passed

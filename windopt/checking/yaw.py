@@ -54,7 +54,7 @@ def _angles(point: SetPoint, plan: YawPlan) -> Iterator[str]:
 def _limits(point: SetPoint, turbine: Turbine, plan: YawPlan) -> Iterator[str]:
     rated = turbine.type.rated_power
     running = turbine.type.cut_in <= point.wind_speed < turbine.type.cut_out
-    free = 0.5 * plan.air_density * turbine.type.swept_area * point.wind_speed**3
+    free = 0.5 * plan.air_density * turbine.type.swept_area * _cube(point.wind_speed)
     if not 0 <= point.power <= rated:
         yield f"its power of {point.power:.9g} W is not between 0 and the rated {rated:.9g} W"
     if point.power > 0 and not running:
@@ -76,6 +76,11 @@ def _power(point: SetPoint, turbine: Turbine, plan: YawPlan) -> Iterator[str]:
     C_p = power_coefficient(
         turbine.type.power_coefficient, point.tip_speed_ratio, degrees(point.pitch)
     )
-    power = 0.5 * plan.air_density * turbine.type.swept_area * effective**3 * C_p
+    power = 0.5 * plan.air_density * turbine.type.swept_area * _cube(effective) * C_p
     if abs(power - point.power) > POWER_TOLERANCE * turbine.type.rated_power:
         yield f"a power of {point.power:.9g} W is said, its set-point gives {power:.9g} W"
+
+
+def _cube(speed: float) -> float:
+    """Return the cube, infinite rather than an error where it is too large for a float."""
+    return speed * speed * speed

@@ -70,7 +70,7 @@ def plan(
     """
     known = series if time is None else series.until(time)
     forecast = _fitted(forecaster, known).predict(known)
-    yaw = _yaw_steps(farm, forecast, start=_last_direction(known), method=yaw_method)
+    yaw = _yaw_steps(farm, forecast, start=_last_direction(known), method=yaw_method, seed=seed)
     inspection = plan_inspection(
         farm,
         fleet,
@@ -101,13 +101,13 @@ def _last_direction(known: WindSeries) -> float:
 
 
 def _yaw_steps(
-    farm: Farm, forecast: WindForecast, *, start: float, method: str
+    farm: Farm, forecast: WindForecast, *, start: float, method: str, seed: int
 ) -> tuple[Result[YawPlan], ...]:
     """Set-points for each step, every nacelle starting where the step before left it."""
     nacelle: float | Sequence[float] = start
     steps = []
     for wind in forecast.winds:
-        result = plan_yaw(farm, wind, method=method, nacelle=nacelle)
+        result = plan_yaw(farm, wind, method=method, nacelle=nacelle, seed=seed)
         nacelle = [point.nacelle for point in result.found().set_points]
         steps.append(result)
     return tuple(steps)
