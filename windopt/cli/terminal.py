@@ -11,8 +11,8 @@ from rich.table import Table
 from windopt.domain.plan import InspectionPlan, Plan, YawPlan
 from windopt.result import Result
 
-out = Console(highlight=False, soft_wrap=True)
-err = Console(stderr=True, highlight=False, soft_wrap=True)
+out = Console(highlight=False, soft_wrap=True, emoji=False)
+err = Console(stderr=True, highlight=False, soft_wrap=True, emoji=False)
 
 
 def say(sentence: str) -> None:
