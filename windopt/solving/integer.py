@@ -187,7 +187,7 @@ class _Search:
         """Run HiGHS until ``limit`` at most, and return how it ended."""
         model = self.program.model
         if self.interrupted or self._left(limit) <= 0.0:
-            return HIGHS.kTimeLimit
+            return HIGHS.kNotset
         model.setOptionValue("time_limit", self._left(limit))
         self.interrupted = run(model, self._hear)
         status: highspy.HighsModelStatus = model.getModelStatus()
