@@ -1,4 +1,4 @@
-"""Flights read off a solution: where each leaves the station, follow it until it is back."""
+"""Flights and the arcs they fly: read off a solution, and written as one."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,3 +21,19 @@ def flights(x: NDArray[np.float64]) -> list[tuple[int, ...]]:
             flight.append(int(follower[flight[-1] + 1]))
         found.append(tuple(flight))
     return found
+
+
+def arcs_of(flight: tuple[int, ...], n: int) -> NDArray[np.bool_]:
+    """Return the arcs that a flight chooses, shape ``(n + 1, n + 1)``.
+
+    Parameters
+    ----------
+    flight
+        Its turbines in flying order, from 0.
+    n
+        Number of turbines.
+    """
+    x = np.zeros((n + 1, n + 1), dtype=bool)
+    nodes = [0, *(i + 1 for i in flight), 0]
+    x[nodes[:-1], nodes[1:]] = True
+    return x

@@ -32,7 +32,7 @@ those copies: sorted by their smallest turbine, the m-th route visits none of th
 solver's tolerance; :meth:`RouteIndexed.cuts` gives only those that a solution violates.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -41,7 +41,7 @@ import numpy as np
 from highspy.highs import HighspyArray, highs_linear_expression
 from numpy.typing import ArrayLike, NDArray
 
-from formulations.flights import flights
+from formulations.flights import arcs_of, flights
 from formulations.network import Network, network
 from formulations.rows import fix
 from formulations.subtours import inflow_row, violated_sets
@@ -73,6 +73,23 @@ class RouteIndexed:
     def routes(self, x: NDArray[np.float64]) -> list[tuple[int, tuple[int, ...]]]:
         """Return the flights of ``x``: each one's station and its turbines in order, from 0."""
         return [(int(d), f) for d, x_r in zip(self.station, x, strict=True) for f in flights(x_r)]
+
+    def point(self, routes: Sequence[tuple[int, tuple[int, ...]]]) -> NDArray[np.float64]:
+        """Return the ``x`` of flights, as :meth:`routes` gives them.
+
+        Raises
+        ------
+        ValueError
+            If a station flies more of them than it has routes.
+        """
+        x = np.zeros(self.x.shape)
+        for d in {d for d, _ in routes}:
+            sorted_by_smallest = sorted((f for station, f in routes if station == d), key=min)
+            for r, f in zip(np.flatnonzero(self.station == d), sorted_by_smallest, strict=False):
+                x[r] = arcs_of(f, x.shape[1] - 1)
+        if x[:, 0].sum() < len(routes):
+            raise ValueError(f"Expected no more routes than the program has, got {len(routes)}.")
+        return x
 
 
 def route_indexed(

@@ -34,7 +34,7 @@ solution violates. The flow goes back to Gavish & Graves (1978), MIT Operations 
 working paper 078-78.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -44,7 +44,7 @@ from highspy.highs import HighspyArray, highs_linear_expression
 from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csr_array, diags_array
 
-from formulations.flights import flights
+from formulations.flights import arcs_of, flights
 from formulations.network import Network, network
 from formulations.one_flight import OneFlight
 from formulations.rows import Matrix, add_rows, columns, fix
@@ -80,6 +80,13 @@ class TimeFlow:
     def routes(self, x: NDArray[np.float64]) -> list[tuple[int, tuple[int, ...]]]:
         """Return the flights of ``x``: each one's station and its turbines in order, from 0."""
         return [(d, flight) for d in range(len(x)) for flight in flights(x[d])]
+
+    def point(self, routes: Sequence[tuple[int, tuple[int, ...]]]) -> NDArray[np.float64]:
+        """Return the ``x`` of flights, as :meth:`routes` gives them."""
+        x = np.zeros(self.x.shape)
+        for d, flight in routes:
+            x[d] += arcs_of(flight, x.shape[1] - 1)
+        return x
 
 
 def time_flow(

@@ -4,15 +4,34 @@ The formulations begin with Algorithm 2's plan, so that a limit never leaves the
 """
 
 from collections.abc import Callable
-from typing import Protocol
+from dataclasses import replace
+from time import perf_counter
+from typing import Any, Protocol
 
+from formulations.route_indexed import RouteIndexed, route_indexed
+from formulations.time_flow import TimeFlow, time_flow
 from windopt.domain.routing import Route, RoutingInstance
 from windopt.heuristics.algorithm_2 import algorithm_2
 from windopt.heuristics.baseline import baseline
-from windopt.result import Result
+from windopt.result import Result, Status
+from windopt.solving import integer
 
 Progress = Callable[[float, float], None]
 Routes = tuple[Route, ...]
+
+HEAD_START = 0.2
+"""Share of the time limit that Algorithm 2 may use before a formulation begins."""
+
+TOO_LARGE = "The program is too large to be built in time; this is Algorithm 2's plan."
+
+ROUNDING = 1e-9
+"""Seconds by which two sums of the same legs may differ."""
+
+LARGEST = 2_000_000
+"""Arcs of the largest program that is built, whatever the time limit: some 2 GB."""
+
+TIME_FLOW_PACE, ROUTE_INDEXED_PACE = 100_000, 20_000
+"""Arcs that are built for each second of the time limit; half of what is usual."""
 
 
 class RoutingMethod(Protocol):
@@ -49,7 +68,89 @@ def _heuristic(method: Callable[..., Result[Routes]]) -> RoutingMethod:
     return solve
 
 
+def _formulation(build: Callable[[RoutingInstance, Result[Routes], float], Any]) -> RoutingMethod:
+    """Return a formulation as a routing method.
+
+    Parameters
+    ----------
+    build
+        Builds the program of an instance, given Algorithm 2's plan and a time limit, or returns
+        ``None`` where that would take too much of the time.
+    """
+
+    def solve(
+        instance: RoutingInstance,
+        *,
+        gap: float,
+        time_limit: float,
+        seed: int,
+        progress: Progress | None,
+    ) -> Result[Routes]:
+        began = perf_counter()
+        first = algorithm_2(instance, time_limit=HEAD_START * time_limit, seed=seed)
+        if first.status is Status.INTERRUPTED:
+            return first
+        program = build(instance, first, time_limit)
+        if program is None:
+            return replace(first, reason=f"{TOO_LARGE} {first.reason}".strip())
+        found = integer.solve(
+            program,
+            gap=gap,
+            time_limit=max(0.0, began + time_limit - perf_counter()),
+            seed=seed,
+            start=program.point(first.found()),
+            progress=progress,
+        )
+        return _better(found.carrying(_routes(program, found)), first)
+
+    return solve
+
+
+def _routes(program: Any, found: Result[Any]) -> Routes | None:
+    if found.solution is None:
+        return None
+    return tuple(Route(station, turbines) for station, turbines in program.routes(found.solution))
+
+
+def _better(found: Result[Routes], first: Result[Routes]) -> Result[Routes]:
+    """Return the better plan of both, with the better bound."""
+    if found.solution is None or found.objective > first.objective:
+        status = Status.FEASIBLE if found.status is Status.NO_SOLUTION else found.status
+        found = replace(found, status=status, solution=first.solution, objective=first.objective)
+    if first.bound > found.bound:
+        found = replace(found, bound=first.bound, bound_source=first.bound_source)
+    return found
+
+
+def _time_flow(
+    instance: RoutingInstance, first: Result[Routes], time_limit: float
+) -> TimeFlow | None:
+    """Build the program of :mod:`formulations.time_flow`."""
+    if instance.t.size > min(LARGEST, TIME_FLOW_PACE * time_limit):
+        return None
+    return time_flow(instance.t, instance.t_max, instance.allowed)
+
+
+def _route_indexed(
+    instance: RoutingInstance, first: Result[Routes], time_limit: float
+) -> RouteIndexed | None:
+    """Build the program of :mod:`formulations.route_indexed`, with as many routes as can pay.
+
+    Where it never takes longer to fly on than by way of the station, two flights of a station
+    that together fit into t_max are merged at no cost. Any two of those left last longer than
+    t_max together, so a station flies fewer than twice the total time over t_max.
+    """
+    t, n = instance.t, len(instance.turbines)
+    merge_at_no_cost = (t[:, 1:, 1:] <= t[:, 1:, :1] + t[:, :1, 1:] + ROUNDING).all()
+    routes = min(n, int(2 * first.objective / instance.t_max.min()) + 1) if merge_at_no_cost else n
+    if routes * t.size > min(LARGEST, ROUTE_INDEXED_PACE * time_limit):
+        return None
+    return route_indexed(t, instance.t_max, routes=routes, allowed=instance.allowed)
+
+
 METHODS: dict[str, RoutingMethod] = {
+    "time-flow": _formulation(_time_flow),
+    "route-indexed": _formulation(_route_indexed),
     "algorithm-2": _heuristic(algorithm_2),
     "baseline": _heuristic(baseline),
 }
