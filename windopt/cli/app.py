@@ -14,6 +14,7 @@ from windopt.cli.yaw import yaw
 app = typer.Typer(
     no_args_is_help=True,
     pretty_exceptions_enable=False,
+    rich_markup_mode=None,  # units stand in brackets, which are markup to rich
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 for command in demo, plan, inspect, yaw, check:
