@@ -90,7 +90,7 @@ class TimeFlow:
 
 
 def time_flow(
-    t: NDArray[np.float64], t_max: ArrayLike, allowed: NDArray[np.bool_] | None = None
+    t: NDArray[np.float64], t_max: ArrayLike, *, allowed: NDArray[np.bool_] | None = None
 ) -> TimeFlow:
     """Build the program (1)-(7), (10).
 

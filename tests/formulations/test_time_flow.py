@@ -35,7 +35,7 @@ def test_optimum_equals_enumeration_on_a_hundred_random_instances(hundred, routi
     for seed in range(100 * hundred, 100 * hundred + 100):
         t, t_max, allowed = routing.random_instance(seed, turbines=7, stations=3)
         expected = routing.cheapest(t, t_max, allowed)
-        result = solve(time_flow(t, t_max, allowed))
+        result = solve(time_flow(t, t_max, allowed=allowed))
         # Sums of at most 14 legs in another order: 1e-9 is generous.
         assert result.objective == pytest.approx(expected, rel=1e-9), seed
         assert (result.status is Status.INFEASIBLE) == np.isinf(expected), seed
@@ -152,7 +152,7 @@ def test_a_turbine_that_nobody_may_serve_makes_it_infeasible(farm, routing):
     t = routing.flight_times(*farm)
     allowed = np.ones((2, 6), dtype=bool)
     allowed[:, 4] = False
-    assert solve(time_flow(t, T_MAX, allowed)).status is Status.INFEASIBLE
+    assert solve(time_flow(t, T_MAX, allowed=allowed)).status is Status.INFEASIBLE
 
 
 def test_turbines_on_one_spot_are_on_one_flight():
@@ -195,13 +195,14 @@ def test_numbers_that_mean_nothing_are_refused(t, t_max, message):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("k", "n", "limit"), [(1, 15, 60.0), (2, 16, 60.0)])
-def test_it_proves_the_sizes_it_promises(k, n, limit, routing):
+@pytest.mark.parametrize(("k", "n"), [(1, 15), (2, 16)])
+def test_it_proves_the_sizes_it_promises(k, n, routing):
+    """Tight flights in a strong wind; seconds on an idle machine, so the limit is no claim."""
     rng = np.random.default_rng(1)
     turbines, stations = rng.uniform(0, 8000, (n, 2)), rng.uniform(0, 8000, (k, 2))
     t = routing.flight_times(stations, turbines, [0.0, -10.0])
     t_max = 1.1 * (t[:, 0, 1:] + t[:, 1:, 0]).min(axis=0).max()
-    result = solve(time_flow(t, t_max), time_limit=limit)
+    result = solve(time_flow(t, t_max), time_limit=300.0)
     assert result.status is Status.OPTIMAL
     assert result.gap < 1e-9
 

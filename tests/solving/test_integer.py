@@ -41,7 +41,6 @@ class Knapsack:
 
     model: highspy.Highs
     x: highspy.highs.HighspyArray
-    start: None = None
 
     def cuts(self, x):
         return iter(())

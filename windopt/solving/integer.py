@@ -3,7 +3,9 @@
 HiGHS calls no one back for lazy constraints (its enumeration names such a callback, and nothing
 fires it), so rows are added between solves, in two stages:
 
-1. the linear relaxation, where a solve is cheap, until it keeps every row;
+1. the linear relaxation, where a solve is cheap, until it keeps every row; first without the rows
+   that tie continuous columns to the decisions, which on a large farm are most of them and take
+   minutes, while the rest takes seconds and already gives most of the bound;
 2. the integer program, until its optimum keeps every row.
 
 A program with fewer rows has no worse an optimum, so the bound of every solve is valid, and the
@@ -43,10 +45,6 @@ class IntegerProgram(Protocol):
     @property
     def x(self) -> HighspyArray: ...
 
-    @property
-    def start(self) -> NDArray[np.float64] | None:
-        """Values of ``x`` to begin with, feasible or not."""
-
     def cuts(self, x: NDArray[np.float64]) -> Iterator[highs_linear_expression]:
         """Yield the rows that ``x`` violates."""
 
@@ -74,7 +72,7 @@ def solve(
     seed, threads
         Passed to HiGHS; with one thread the same inputs give the same answer.
     start
-        Values of ``x`` to begin with instead of ``program.start``.
+        Values of ``x`` to begin with, feasible or not; ``program.start`` where it has one.
     progress
         Called with the best objective and bound so far whenever one of them improves.
     """
@@ -87,7 +85,7 @@ def solve(
 
     search = _Search(program, time_limit, progress)
     try:
-        search.begin(program.start if start is None else start)
+        search.begin(getattr(program, "start", None) if start is None else start)
         search.relax()
         search.branch()
     except KeyboardInterrupt:
@@ -134,21 +132,30 @@ class _Search:
         if (value < lower).any() or (value > upper).any():
             return
         model.setOptionValue("solve_relaxation", True)
-        model.changeColsBounds(column.size, column, value, value)
-        if self._run(self.time_limit) == HIGHS.kOptimal:
-            self._keep(self._values())
-        model.changeColsBounds(column.size, column, lower, upper)
-        model.clearSolver()
+        try:
+            model.changeColsBounds(column.size, column, value, value)
+            if self._run(self.time_limit) == HIGHS.kOptimal:
+                self._keep(self._values())
+        finally:
+            model.changeColsBounds(column.size, column, lower, upper)
+            model.clearSolver()
         self.infeasible, self.reason = False, ""
 
     def relax(self) -> None:
         """Solve the relaxation until it keeps every row or has had its share of the time."""
         model, limit = self.program.model, RELAXATION_SHARE * self.time_limit
         model.setOptionValue("solve_relaxation", True)
-        while self._run(limit) == HIGHS.kOptimal:
-            self._raise_bound(model.getInfo().objective_function_value, "linear relaxation")
-            if not self._add_violated(self._values(), limit):
-                break
+        lp = model.getLp()
+        tied = np.flatnonzero(abs(matrix(lp)) @ ~self.whole).astype(np.int32)
+        lower, upper = np.asarray(lp.row_lower_)[tied], np.asarray(lp.row_upper_)[tied]
+        free = np.full(tied.size, inf)
+        try:
+            model.changeRowsBounds(tied.size, tied, -free, free)
+            self._relax(limit / 2)
+        finally:
+            model.changeRowsBounds(tied.size, tied, lower, upper)
+        if tied.size > 0:
+            self._relax(limit)
 
     def branch(self) -> None:
         """Solve the integer program until its optimum keeps every row."""
@@ -182,6 +189,14 @@ class _Search:
         x = None if self.values is None else self._x(self.values)
         bound = min(self.bound, self.objective)
         return Result(status, x, self.objective, bound, runtime, self.proof, self.reason)
+
+    def _relax(self, limit: float) -> None:
+        while self._run(limit) == HIGHS.kOptimal:
+            self._raise_bound(
+                self.program.model.getInfo().objective_function_value, "linear relaxation"
+            )
+            if not self._add_violated(self._values(), limit):
+                break
 
     def _run(self, limit: float) -> highspy.HighsModelStatus:
         """Run HiGHS until ``limit`` at most, and return how it ended."""
@@ -259,10 +274,7 @@ def largest_violation(model: highspy.Highs, values: NDArray[np.float64]) -> floa
         Value of every column.
     """
     lp = model.getLp()
-    matrix = lp.a_matrix_
-    form = csr_array if matrix.format_ == highspy.MatrixFormat.kRowwise else csc_array
-    A = form((matrix.value_, matrix.index_, matrix.start_), shape=(lp.num_row_, lp.num_col_))
-    row = A @ values
+    row = matrix(lp) @ values
     excess = (
         np.asarray(lp.row_lower_) - row,
         row - np.asarray(lp.row_upper_),
@@ -270,3 +282,10 @@ def largest_violation(model: highspy.Highs, values: NDArray[np.float64]) -> floa
         values - np.asarray(lp.col_upper_),
     )
     return max(float(e.max(initial=0.0)) for e in excess)
+
+
+def matrix(lp: highspy.HighsLp) -> csr_array[np.float64, tuple[int, int]]:
+    """Return the coefficients of all rows."""
+    A = lp.a_matrix_
+    form = csr_array if A.format_ == highspy.MatrixFormat.kRowwise else csc_array
+    return csr_array(form((A.value_, A.index_, A.start_), shape=(lp.num_row_, lp.num_col_)))
