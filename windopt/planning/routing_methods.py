@@ -128,7 +128,7 @@ def _time_flow(
     """Build the program of :mod:`formulations.time_flow`."""
     if instance.t.size > min(LARGEST, TIME_FLOW_PACE * time_limit):
         return None
-    return time_flow(instance.t, instance.t_max, instance.allowed)
+    return time_flow(instance.t, instance.t_max, allowed=instance.allowed)
 
 
 def _route_indexed(
