@@ -16,7 +16,7 @@ route r.
       & \sum_r \sum_{i,j \in S} x_{rij} \le |S| - 1            & S \subseteq N   \tag{7} \\
       & x_{rij} = x_{rji} = 0 & r \text{ the } m\text{-th of its station},\ i < m \tag{8} \\
       & \sum_j x_{r0j} \ge \sum_j x_{r+1,0j}          & r, r + 1 \in R_d         \tag{9} \\
-      & \sum_{ij} x_{rij} \le |P| - 1 \text{ over } P & P \text{ longer than } t^{\max}_r \tag{10}
+      & \sum_{ij \in P} x_{rij} \le |P| - 1 & P \text{ longer than } t^{\max}_r   \tag{10}
 
 In the paper every route passes through every turbine, which more than one route cannot do
 without visiting twice; here (3) asks for each turbine on exactly one route, (4) lets a route

@@ -24,9 +24,10 @@ import highspy
 import numpy as np
 from highspy.highs import HighspyArray, highs_linear_expression
 from numpy.typing import NDArray
-from scipy.sparse import csc_array, csr_array
 
+from windopt.errors import InvalidInput
 from windopt.result import Result, Status
+from windopt.solving.rows import largest_violation, matrix
 from windopt.solving.watched import News, run
 
 HIGHS = highspy.HighsModelStatus
@@ -75,7 +76,20 @@ def solve(
         Values of ``x`` to begin with, feasible or not; ``program.start`` where it has one.
     progress
         Called with the best objective and bound so far whenever one of them improves.
+
+    Raises
+    ------
+    InvalidInput
+        If ``gap`` or ``time_limit`` is negative, or ``start`` is not of the shape of ``x``.
     """
+    for name, option in ("gap", gap), ("time_limit", time_limit):
+        if not option >= 0.0:
+            raise InvalidInput(name, ">= 0", option)
+    if start is None:
+        start = getattr(program, "start", None)
+    if start is not None and start.shape != program.x.shape:
+        raise InvalidInput("start", f"of shape {program.x.shape}", start.shape)
+
     model = program.model
     model.silent()
     model.setOptionValue("mip_rel_gap", gap)
@@ -85,7 +99,7 @@ def solve(
 
     search = _Search(program, time_limit, progress)
     try:
-        search.begin(getattr(program, "start", None) if start is None else start)
+        search.begin(start)
         search.relax()
         search.branch()
     except KeyboardInterrupt:
@@ -263,29 +277,3 @@ class _Search:
     def _left(self, limit: float) -> float:
         """Return the time left until ``limit`` [s]."""
         return self.began + limit - perf_counter()
-
-
-def largest_violation(model: highspy.Highs, values: NDArray[np.float64]) -> float:
-    """Return by how much ``values`` break a row or a bound of ``model`` at worst.
-
-    Parameters
-    ----------
-    values
-        Value of every column.
-    """
-    lp = model.getLp()
-    row = matrix(lp) @ values
-    excess = (
-        np.asarray(lp.row_lower_) - row,
-        row - np.asarray(lp.row_upper_),
-        np.asarray(lp.col_lower_) - values,
-        values - np.asarray(lp.col_upper_),
-    )
-    return max(float(e.max(initial=0.0)) for e in excess)
-
-
-def matrix(lp: highspy.HighsLp) -> csr_array[np.float64, tuple[int, int]]:
-    """Return the coefficients of all rows."""
-    A = lp.a_matrix_
-    form = csr_array if A.format_ == highspy.MatrixFormat.kRowwise else csc_array
-    return csr_array(form((A.value_, A.index_, A.start_), shape=(lp.num_row_, lp.num_col_)))
