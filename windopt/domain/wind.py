@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from windopt.domain.quantiles import Quantiles
 from windopt.domain.turbine import require_finite
 from windopt.errors import InvalidInput
 
@@ -198,6 +199,8 @@ class WindForecast:
         Name of the forecaster.
     notes
         What was assumed to make the forecast, one sentence each.
+    quantiles
+        How sure it is, where the forecaster says so.
     """
 
     issued: np.datetime64
@@ -206,6 +209,7 @@ class WindForecast:
     theta_met: Floats
     method: str
     notes: tuple[str, ...] = ()
+    quantiles: Quantiles | None = None
 
     def __post_init__(self) -> None:
         if not len(self.time) == len(self.speed) == len(self.theta_met) > 0:
@@ -228,6 +232,22 @@ class WindForecast:
         """The steady wind that moves the air as far as the forecast does."""
         u, v = self.velocity.mean(axis=0)
         return Wind(float(u), float(v))
+
+    def scenarios(self, n: int, rng: np.random.Generator) -> tuple["WindForecast", ...]:
+        """Draw ``n`` winds that may come, each a coherent path over the horizon.
+
+        Raises
+        ------
+        InvalidInput
+            If the forecaster gave no quantiles.
+        """
+        if self.quantiles is None:
+            raise InvalidInput("forecast", "with quantiles to draw from", f"one by {self.method}")
+        paths = zip(*self.quantiles.paths(n, rng), strict=True)
+        return tuple(
+            replace(self, speed=speed, theta_met=(self.theta_met + turn) % (2 * pi), quantiles=None)
+            for speed, turn in paths
+        )
 
     def __len__(self) -> int:
         return len(self.time)

@@ -64,6 +64,7 @@ def issue(forecaster: Forecaster, history: WindSeries) -> WindForecast:
         theta_met=ahead.theta_met[0],
         method=forecaster.name,
         notes=known.notes[len(history.notes) :],
+        quantiles=ahead.quantiles and ahead.quantiles[0],
     )
 
 

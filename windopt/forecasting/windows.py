@@ -12,6 +12,7 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
+from windopt.domain.quantiles import Quantiles
 from windopt.domain.wind import Floats, WindSeries
 from windopt.errors import InvalidInput
 
@@ -43,10 +44,13 @@ class Traces:
         Wind speed [m/s], shape ``(B, n)``.
     theta_met
         Where it blows from, clockwise from north [rad], shape ``(B, n)``.
+    quantiles
+        How sure it is, if it is a forecast that says so, shapes ``(B, n, Q)``.
     """
 
     speed: Floats
     theta_met: Floats
+    quantiles: Quantiles | None = None
 
     @property
     def velocity(self) -> Floats:

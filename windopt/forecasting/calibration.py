@@ -1,0 +1,114 @@
+"""Calibration: quantiles widened or narrowed until they cover what they say, at every wind speed.
+
+Split-conformal prediction on windows that trained nothing: for each class of the last measured
+speed and each level p, the distance between quantile and median is multiplied by the p-quantile
+of (truth - median) / (quantile - median). Conditioning on speed matters because a direction is
+much less certain in a light wind. See Romano, Patterson & Candes (2019), arXiv:1905.03222.
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from windopt.domain.quantiles import Quantiles
+from windopt.domain.wind import Floats
+from windopt.forecasting.targets import LEVELS, TURN_LIMIT, wrapped
+from windopt.forecasting.windows import Traces
+
+SPEED_CLASSES = (4.0, 8.0, 12.0)  # m/s, edges between four classes
+FEW = 300  # truths in a class, below which it keeps the quantiles as they are
+FACTOR_LIMITS = (0.25, 4.0)
+
+
+def speed_class(past: Traces) -> np.ndarray[tuple[int], np.dtype[np.intp]]:
+    """Return the class of the last measured speed, shape ``(B,)``."""
+    return np.digitize(past.speed[:, -1], SPEED_CLASSES)
+
+
+@dataclass(frozen=True)
+class Calibration:
+    """Factors on the distance of each quantile from the median.
+
+    Parameters
+    ----------
+    speed, turn
+        For each class of speed and each level [-], shape ``(4, Q)``.
+    memory
+        See :class:`windopt.domain.quantiles.Quantiles`.
+    """
+
+    speed: Floats
+    turn: Floats
+    memory: tuple[float, float] = (0.5, 0.5)
+
+    @classmethod
+    def none(cls) -> "Calibration":
+        """Leave quantiles as they are."""
+        ones = np.ones((len(SPEED_CLASSES) + 1, len(LEVELS)))
+        return cls(ones, ones)
+
+    def apply(self, ahead: Traces, past: Traces) -> Traces:
+        """Return the forecast with calibrated quantiles."""
+        if ahead.quantiles is None:
+            return ahead
+        of = speed_class(past)
+        middle = ahead.speed[..., None]
+        away = ahead.quantiles.speed - middle
+        speed = np.maximum(middle + away * self.speed[of, None, :], 0.0)
+        turn = np.clip(ahead.quantiles.turn * self.turn[of, None, :], -TURN_LIMIT, TURN_LIMIT)
+        return replace(
+            ahead,
+            quantiles=Quantiles(LEVELS, np.sort(speed), np.sort(turn), self.memory),
+        )
+
+
+def calibrate(cases: Iterable[tuple[Traces, Traces, Traces]]) -> Calibration:
+    """Find the factors from ``(forecast, past, future)`` of windows that trained nothing."""
+    ratios: list[list[Floats]] = [[], []]
+    surprises: list[list[Floats]] = [[], []]
+    of = []
+    for ahead, past, future in cases:
+        if ahead.quantiles is None:
+            return Calibration.none()
+        of.append(np.repeat(speed_class(past), future.speed.shape[1]))
+        for k, (error, away) in enumerate(
+            (
+                (future.speed - ahead.speed, ahead.quantiles.speed - ahead.speed[..., None]),
+                (wrapped(future.theta_met - ahead.theta_met), ahead.quantiles.turn),
+            )
+        ):
+            signed = np.where(np.abs(away) > 1e-6, away, np.copysign(1e-6, np.array(LEVELS) - 0.5))
+            ratios[k].append((error[..., None] / signed).reshape(-1, len(LEVELS)))
+            surprises[k].append(error / (away[..., -1] - away[..., 0] + 1e-6))
+    classes = np.concatenate(of)
+    speed, turn = (_factors(np.concatenate(ratio), classes) for ratio in ratios)
+    a, b = (_memory(np.concatenate(surprise)) for surprise in surprises)
+    return Calibration(speed, turn, (a, b))
+
+
+def _factors(ratio: Floats, classes: np.ndarray[tuple[int], np.dtype[np.intp]]) -> Floats:
+    """Quantiles of the ratios ``(N, Q)`` within each class, shape ``(4, Q)``."""
+    factors = np.ones((len(SPEED_CLASSES) + 1, len(LEVELS)))
+    for k in range(len(factors)):
+        inside = ratio[classes == k]
+        if len(inside) < FEW:
+            continue
+        for j, level in enumerate(LEVELS):
+            if level != 0.5:
+                p = max(level, 1 - level) * (1 + 1 / len(inside))
+                factors[k, j] = np.quantile(inside[:, j], min(p, 1.0))
+    return np.clip(factors, *FACTOR_LIMITS)
+
+
+def _memory(surprise: Floats) -> float:
+    """Fit the exponent a of the correlation (h / h')^a to errors in units of their spread."""
+    H = surprise.shape[1]
+    if H < 2 or len(surprise) < FEW:
+        return 0.5
+    ranks = np.clip(surprise, -3, 3)
+    correlation = np.atleast_2d(np.corrcoef(ranks, rowvar=False))
+    h = np.log(np.arange(1, H + 1))
+    i, j = np.triu_indices(H, 1)
+    exponents = -np.log(np.clip(correlation[i, j], 1e-3, 0.999)) / (h[j] - h[i])
+    return float(np.median(exponents))

@@ -1,0 +1,180 @@
+"""The LSTM as a forecaster: one that learns, and one that runs a trained model without torch."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
+from enum import StrEnum
+from functools import cached_property
+from importlib import resources
+from pathlib import Path
+from typing import TYPE_CHECKING, Self
+
+import numpy as np
+
+from windopt.domain.wind import WindForecast, WindSeries
+from windopt.errors import InvalidInput, MissingExtra
+from windopt.forecasting import model_file
+from windopt.forecasting.evaluation import Backtest, backtest
+from windopt.forecasting.forecaster import issue
+from windopt.forecasting.integer_network import IntegerNetwork
+from windopt.forecasting.model import Model
+from windopt.forecasting.network import FloatNetwork, Network, QuantisedWeights
+from windopt.forecasting.sparse_network import SparseNetwork
+from windopt.forecasting.windows import Traces
+
+if TYPE_CHECKING:
+    from windopt.forecasting.training.fit import Recipe
+    from windopt.forecasting.training.loop import Epoch
+
+SHIPPED = {5: "wind-5min.npz", 10: "wind-10min.npz"}  # by step in minutes
+
+
+class Arithmetic(StrEnum):
+    """What a trained model computes with."""
+
+    FLOAT = "float"
+    INTEGER = "integer"
+    SPARSE = "sparse"
+
+
+@dataclass(frozen=True)
+class EdgeForecaster:
+    """A trained model, run with NumPy.
+
+    Parameters
+    ----------
+    model
+        What a file holds.
+    arithmetic
+        Floating point, or, for quantised weights, integers or sparse products.
+    name
+        What tables call it.
+    """
+
+    model: Model
+    arithmetic: Arithmetic = Arithmetic.FLOAT
+    name: str = "lstm"
+
+    def __post_init__(self) -> None:
+        quantised = isinstance(self.model.weights, QuantisedWeights)
+        if self.arithmetic is not Arithmetic.FLOAT and not quantised:
+            raise InvalidInput("arithmetic", "float for weights in floating point", self.arithmetic)
+
+    @classmethod
+    def load(cls, path: str | Path, *, arithmetic: str = "float") -> Self:
+        """Read a model's file.
+
+        Raises
+        ------
+        InvalidInput
+            If the file is not a whole model of this version.
+        """
+        return cls(model_file.load(Path(path)), Arithmetic(arithmetic))
+
+    @classmethod
+    def shipped(cls, step: np.timedelta64, *, arithmetic: str = "float") -> Self:
+        """Return the 4-bit model that comes with the package for series of this ``step``.
+
+        Raises
+        ------
+        InvalidInput
+            If there is none: the steps are 5 and 10 minutes.
+        """
+        name = SHIPPED.get(int(step / np.timedelta64(1, "m")))
+        if name is None:
+            raise InvalidInput("step", f"{' or '.join(map(str, SHIPPED))} minutes", step)
+        file = resources.files("windopt.forecasting") / "models" / name
+        return cls(model_file.loads(file.read_bytes(), name), Arithmetic(arithmetic))
+
+    @property
+    def history(self) -> np.timedelta64:
+        """How far it looks back."""
+        return self.model.history
+
+    @property
+    def horizon(self) -> np.timedelta64:
+        """How far it looks ahead."""
+        return self.model.horizon
+
+    @cached_property
+    def network(self) -> Network:
+        """The network in the arithmetic asked for."""
+        weights = self.model.weights
+        if isinstance(weights, QuantisedWeights) and self.arithmetic is Arithmetic.INTEGER:
+            return IntegerNetwork(weights)
+        if isinstance(weights, QuantisedWeights) and self.arithmetic is Arithmetic.SPARSE:
+            return SparseNetwork(weights)
+        return FloatNetwork(self.model.float_weights)
+
+    def fit(self, series: WindSeries) -> Self:
+        """Return itself: it has been trained."""
+        return self
+
+    def forecast(self, past: Traces, step: np.timedelta64) -> Traces:
+        """Return the forecast after each trace, with calibrated quantiles.
+
+        Raises
+        ------
+        InvalidInput
+            If the model was trained on another step.
+        """
+        if step != self.model.step:
+            raise InvalidInput("step", f"{self.model.step}, which the model is for", step)
+        return self.model.forecast(self.network, past)
+
+    def predict(self, history: WindSeries) -> WindForecast:
+        """Return the forecast after the last row of ``history``."""
+        return issue(self, history)
+
+    def backtest(self, series: WindSeries) -> Backtest:
+        """Score the model on every window of ``series``, beside persistence."""
+        return backtest([self], series)
+
+    def save(self, path: str | Path) -> None:
+        """Write the model's file, whole or not at all."""
+        model_file.save(self.model, Path(path))
+
+
+@dataclass(frozen=True)
+class WindForecaster:
+    """The LSTM before training; :meth:`fit` trains it, and needs the extra ``train``.
+
+    Parameters
+    ----------
+    recipe
+        What to train; the default is the paper's network with our target at 4 bits.
+    seed
+        Of the initial weights and the order of the windows.
+    progress
+        Called after each pass over the training windows.
+    checkpoint
+        A file that keeps the training's state, so that one that was interrupted goes on.
+    """
+
+    recipe: "Recipe | None" = None
+    seed: int = 0
+    progress: "Callable[[Epoch], None] | None" = field(default=None, repr=False)
+    checkpoint: Path | None = None
+
+    def fit(self, series: WindSeries | Sequence[WindSeries]) -> EdgeForecaster:
+        """Train on one series or on several of one step, masking faults of the sensors first.
+
+        Raises
+        ------
+        MissingExtra
+            If torch is not installed.
+        InvalidInput
+            If a series is too short to be split into training and validation.
+        """
+        try:
+            from windopt.forecasting.training.fit import Recipe, fit
+        except ModuleNotFoundError as missing:
+            raise MissingExtra("Training", "train") from missing
+        several = [series] if isinstance(series, WindSeries) else list(series)
+        model = fit(
+            self.recipe or Recipe(),
+            several,
+            seed=self.seed,
+            progress=self.progress,
+            checkpoint=self.checkpoint,
+        )
+        return EdgeForecaster(model)

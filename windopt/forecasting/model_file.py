@@ -1,0 +1,195 @@
+"""Model files: one ``.npz`` with packed weights and nothing that runs when read.
+
+A file holds four arrays: ``header`` (JSON as bytes: version, sizes, bits, durations), ``codes``
+(the nine quantised matrices packed one after the other; empty in floating point), ``biases``
+(float16 beside weights of up to 8 bits, else float32) and ``floats`` (float32: scales of the
+matrices, scaling, calibration, and matrices in floating point).
+"""
+
+import io
+import json
+import os
+import zipfile
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from windopt.errors import InvalidInput
+from windopt.forecasting.calibration import SPEED_CLASSES, Calibration
+from windopt.forecasting.model import Model, Scaling
+from windopt.forecasting.network import QuantisedWeights, Weights
+from windopt.forecasting.quantisation import FLOAT, Levels, Quantised, pack, unpack
+from windopt.forecasting.targets import LEVELS, TARGETS
+
+VERSION = 1
+SIZE_LIMIT = 64 * 2**20  # bytes; no model of this kind comes near
+SINGLE = np.dtype("<f4")
+
+
+def dumps(model: Model) -> bytes:
+    """Return the bytes of the model's file."""
+    weights, scaling, calibration = model.weights, model.scaling, model.calibration
+    quantised = isinstance(weights, QuantisedWeights)
+    matrices = (*weights.W, *weights.U, weights.W_y) if quantised else ()
+    header = {
+        "windopt model": VERSION,
+        "target": model.target,
+        "minutes": [_minutes(t) for t in (model.step, model.history, model.horizon)],
+        "units": model.float_weights.units,
+        "bits": [matrices[0].bits, matrices[-1].bits] if quantised else [FLOAT, FLOAT],
+        "levels": (matrices[0].levels if quantised else Levels.HALF).value,
+    }
+    small = quantised and max(header["bits"]) <= 8
+    biases = np.concatenate([weights.b, weights.b_y]).astype("<f2" if small else SINGLE)
+    floats = [
+        scaling.mean,
+        scaling.deviation,
+        scaling.outputs,
+        calibration.speed,
+        calibration.turn,
+        np.array(calibration.memory),
+    ]
+    if quantised:
+        floats.append(np.array([matrix.s for matrix in matrices]))
+        codes = np.concatenate([pack(matrix.codes, matrix.bits) for matrix in matrices])
+    else:
+        floats += [weights.W, weights.U, weights.W_y]
+        codes = np.zeros(0, dtype=np.uint8)
+    buffer = io.BytesIO()
+    np.savez(
+        buffer,
+        header=np.frombuffer(json.dumps(header, separators=(",", ":")).encode(), dtype=np.uint8),
+        codes=codes,
+        biases=biases,
+        floats=np.concatenate([np.ravel(array) for array in floats]).astype(SINGLE),
+    )
+    return buffer.getvalue()
+
+
+def loads(content: bytes, name: str = "model file") -> Model:
+    """Return the model in a file's bytes.
+
+    Raises
+    ------
+    InvalidInput
+        If they are truncated, corrupted, pickled, of another version, or contradict themselves.
+    """
+    if len(content) > SIZE_LIMIT:
+        raise InvalidInput(name, f"of at most {SIZE_LIMIT} bytes", len(content))
+    try:
+        with np.load(io.BytesIO(content), allow_pickle=False) as arrays:
+            header = json.loads(arrays["header"].tobytes().decode())
+            codes, biases, floats = (arrays[key] for key in ("codes", "biases", "floats"))
+        return _model(header, codes, biases.astype(np.float32), _Reader(floats))
+    except InvalidInput:
+        raise
+    except (
+        OSError, ValueError, KeyError, TypeError, EOFError, IndexError, AttributeError,
+        OverflowError, NotImplementedError, MemoryError, zipfile.BadZipFile,
+    ) as broken:  # fmt: skip
+        raise InvalidInput(name, "a windopt model that is whole", f"{broken}") from broken
+
+
+def save(model: Model, path: Path) -> None:
+    """Write the model's file, whole or not at all."""
+    unfinished = path.with_name(f".{path.name}.{os.getpid()}.part")
+    try:
+        with unfinished.open("wb") as file:
+            file.write(dumps(model))
+            file.flush()
+            os.fsync(file.fileno())
+        unfinished.replace(path)
+    finally:
+        unfinished.unlink(missing_ok=True)
+
+
+def load(path: Path) -> Model:
+    """Read a model's file; see :func:`loads`."""
+    try:
+        content = path.read_bytes()
+    except OSError as missing:
+        raise InvalidInput("model file", "to be readable", missing) from missing
+    return loads(content, f"model file {path.name}")
+
+
+class _Reader:
+    """Takes arrays from one flat array, in order."""
+
+    def __init__(self, floats: NDArray[Any]) -> None:
+        if floats.dtype != SINGLE or floats.ndim != 1 or not np.isfinite(floats).all():
+            raise InvalidInput("floats", "finite float32 in one row", floats.dtype)
+        self._rest = floats.astype(np.float32)
+
+    def take(self, *shape: int) -> NDArray[np.float32]:
+        """Return the next array of ``shape``."""
+        size = int(np.prod(shape))
+        if len(self._rest) < size:
+            raise InvalidInput("floats", f"{size} more", len(self._rest))
+        taken, self._rest = self._rest[:size], self._rest[size:]
+        return taken.reshape(shape)
+
+    def end(self) -> None:
+        """Raise unless all has been taken."""
+        if len(self._rest):
+            raise InvalidInput("floats", "no more", len(self._rest))
+
+
+def _model(
+    header: dict[str, Any], codes: NDArray[Any], biases: NDArray[np.float32], floats: _Reader
+) -> Model:
+    if header.get("windopt model") != VERSION:
+        raise InvalidInput("version of model file", f"{VERSION}", header.get("windopt model"))
+    if header["target"] not in TARGETS:
+        raise InvalidInput("target", f"among {', '.join(TARGETS)}", header["target"])
+    step, history, horizon = (np.timedelta64(int(m), "m") for m in header["minutes"])
+    way, n = TARGETS[header["target"]], int(header["units"])
+    H = int(horizon / step)
+    d, k, m = way.inputs, way.outputs, H * way.outputs
+    classes = (len(SPEED_CLASSES) + 1, len(LEVELS))
+    scaling = Scaling(floats.take(d), floats.take(d), floats.take(H, k))
+    speed, turn = (floats.take(*classes).astype(float) for _ in range(2))
+    a, b = (float(x) for x in floats.take(2))
+    if biases.shape != (4 * n + m,):
+        raise InvalidInput("biases", f"of shape {(4 * n + m,)}", biases.shape)
+    bits, output_bits = (int(b) for b in header["bits"])
+    weights: Weights | QuantisedWeights
+    if bits == FLOAT:
+        W, U, W_y = floats.take(4 * n, d), floats.take(4 * n, n), floats.take(m, n)
+        weights = Weights(W, U, biases[: 4 * n], W_y, biases[4 * n :])
+    else:
+        shapes = [(n, d)] * 4 + [(n, n)] * 4 + [(m, n)]
+        widths = [bits] * 8 + [output_bits]
+        gates = _matrices(codes, shapes, widths, Levels(header["levels"]), floats.take(9))
+        weights = QuantisedWeights(
+            gates[:4], gates[4:8], biases[: 4 * n], gates[8], biases[4 * n :]
+        )
+    floats.end()
+    return Model(
+        header["target"], step, history, horizon, weights, scaling, Calibration(speed, turn, (a, b))
+    )
+
+
+def _matrices(
+    codes: NDArray[Any],
+    shapes: list[tuple[int, int]],
+    widths: list[int],
+    levels: Levels,
+    scales: NDArray[np.float32],
+) -> tuple[Quantised, ...]:
+    """Unpack the quantised matrices, which fill ``codes`` to the last byte."""
+    sizes = [
+        -(-rows * columns * bits // 8) for (rows, columns), bits in zip(shapes, widths, strict=True)
+    ]
+    if codes.dtype != np.uint8 or codes.shape != (sum(sizes),):
+        raise InvalidInput("packed weights", f"of {sum(sizes)} bytes", codes.shape)
+    parts = np.split(codes, np.cumsum(sizes)[:-1])
+    return tuple(
+        Quantised(unpack(part, bits, shape[0] * shape[1]).reshape(shape), float(s), bits, levels)
+        for part, shape, bits, s in zip(parts, shapes, widths, scales, strict=True)
+    )
+
+
+def _minutes(duration: np.timedelta64) -> int:
+    return int(duration / np.timedelta64(1, "m"))

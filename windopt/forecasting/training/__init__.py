@@ -1,0 +1,1 @@
+"""Training the network: the only room that loads torch."""

@@ -1,0 +1,167 @@
+"""From measured series to a trained model: windows, scaling, training, rounding, calibration."""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+import torch
+
+from windopt.domain.wind import WindSeries
+from windopt.errors import InvalidInput
+from windopt.forecasting.calibration import Calibration, calibrate
+from windopt.forecasting.model import Model, Scaling
+from windopt.forecasting.network import FloatNetwork
+from windopt.forecasting.quantisation import FLOAT, Levels
+from windopt.forecasting.targets import TARGETS, ResidualTarget, Target
+from windopt.forecasting.training.loop import Epoch, Examples, Schedule, train
+from windopt.forecasting.training.losses import Loss, raw_loss, residual_loss
+from windopt.forecasting.training.module import Shape
+from windopt.forecasting.windows import (
+    HISTORY,
+    HORIZON,
+    Traces,
+    Windows,
+    chronological_split,
+    windows,
+)
+
+
+@dataclass(frozen=True)
+class Recipe:
+    """What to train.
+
+    Parameters
+    ----------
+    history, horizon
+        How far to look back and ahead.
+    target
+        ``"residual"`` (ours) or ``"raw"`` (the paper's).
+    units
+        Hidden units.
+    bits, output_bits
+        omega_w and omega_f.
+    levels
+        Which levels the weights take.
+    validation
+        The last fraction of each series, kept for early stopping and calibration.
+    """
+
+    history: np.timedelta64 = HISTORY
+    horizon: np.timedelta64 = HORIZON
+    target: str = "residual"
+    units: int = 100
+    bits: int = 4
+    output_bits: int | None = None
+    levels: Levels = Levels.HALF
+    validation: float = 0.12
+    schedule: Schedule = field(default_factory=Schedule)
+
+    def __post_init__(self) -> None:
+        if self.target not in TARGETS:
+            raise InvalidInput("target", f"among {', '.join(TARGETS)}", self.target)
+        if self.units < 1:
+            raise InvalidInput("units", ">= 1", self.units)
+
+
+def fit(
+    recipe: Recipe,
+    series: Sequence[WindSeries],
+    *,
+    seed: int = 0,
+    progress: Callable[[Epoch], None] | None = None,
+    checkpoint: Path | None = None,
+) -> Model:
+    """Train a model on several series of one step, each with its own validation end.
+
+    Raises
+    ------
+    InvalidInput
+        If the steps differ, or a series is too short to be split into training and validation.
+    """
+    steps = {one.step for one in series}
+    if len(steps) != 1:
+        raise InvalidInput("series", "of one step", sorted(map(str, steps)))
+    way = TARGETS[recipe.target]
+    pairs = [chronological_split(one, recipe.validation) for one in series]
+    early, late = ([_found(part, recipe) for part in parts] for parts in zip(*pairs, strict=True))
+    scaling, spread = _scaling(way, early)
+    examples, validation = (_examples(way, part, scaling) for part in (early, late))
+    shape = Shape(
+        way.inputs,
+        scaling.outputs.size,
+        recipe.units,
+        recipe.bits,
+        recipe.output_bits or recipe.bits,
+        recipe.levels,
+    )
+    raw = train(
+        shape,
+        examples,
+        validation,
+        _loss(way, spread),
+        scale=torch.from_numpy(scaling.outputs),
+        schedule=recipe.schedule,
+        seed=seed,
+        progress=progress,
+        checkpoint=checkpoint,
+    )
+    bits = (shape.bits, shape.output_bits)
+    weights = (
+        raw.rounded(*bits, levels=recipe.levels)
+        if FLOAT in bits
+        else raw.quantised(*bits, levels=recipe.levels)
+    )
+    model = Model(
+        recipe.target,
+        steps.pop(),
+        recipe.history,
+        recipe.horizon,
+        weights,
+        scaling,
+        Calibration.none(),
+    )
+    return calibrated(model, late)
+
+
+def calibrated(model: Model, found: Sequence[Windows]) -> Model:
+    """Return ``model`` with its quantiles calibrated on windows that did not train it."""
+    network = FloatNetwork(model.float_weights)
+
+    def cases() -> Iterator[tuple[Traces, Traces, Traces]]:
+        for some in found:
+            for block in some.blocks():
+                past = block.past
+                yield model.forecast(network, past), past, block.future
+
+    return model.with_calibration(calibrate(cases()))
+
+
+def _found(series: WindSeries, recipe: Recipe) -> Windows:
+    return windows(series, history=recipe.history, horizon=recipe.horizon)
+
+
+def _loss(way: Target, spread: np.ndarray[tuple[int, ...], np.dtype[np.float32]]) -> Loss:
+    """Return the loss of a target whose truths spread by ``spread``."""
+    return residual_loss(torch.from_numpy(spread)) if isinstance(way, ResidualTarget) else raw_loss
+
+
+def _scaling(
+    way: Target, found: Sequence[Windows]
+) -> tuple[Scaling, np.ndarray[tuple[int, ...], np.dtype[np.float32]]]:
+    """Standardise inputs, and let outputs count the spread of what they should be."""
+    x = np.concatenate([way.encode(some.past) for some in found])
+    y = np.concatenate([way.truth(some.past, some.future) for some in found])
+    spread = y.std(axis=0) + 1e-6
+    columns = way.columns
+    mean, deviation = x.mean(axis=(0, 1)), x.std(axis=(0, 1)) + 1e-3
+    return Scaling(mean, deviation, np.ascontiguousarray(spread[:, columns])), spread
+
+
+def _examples(way: Target, found: Sequence[Windows], scaling: Scaling) -> Examples:
+    measured = np.concatenate([way.encode(some.past) for some in found])
+    truth = np.concatenate([way.truth(some.past, some.future) for some in found])
+    x = (measured - scaling.mean) / scaling.deviation
+    return Examples(
+        torch.from_numpy(x), torch.from_numpy(truth), torch.from_numpy(measured[:, -1:])
+    )

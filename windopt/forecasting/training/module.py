@@ -1,0 +1,76 @@
+"""The network as torch trains it, and its way out into NumPy."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import torch
+from torch import Tensor, nn
+from torch.nn.utils import parametrize
+
+from windopt.forecasting.network import Weights
+from windopt.forecasting.quantisation import FLOAT, Levels
+from windopt.forecasting.training.straight_through import quantise_while_training
+
+
+@dataclass(frozen=True)
+class Shape:
+    """Sizes of a network and the bits of its weights.
+
+    Parameters
+    ----------
+    inputs, units, outputs
+        Inputs at each step, hidden units, and outputs altogether.
+    bits, output_bits
+        omega_w of the gates and omega_f of the output layer; 32 is floating point.
+    levels
+        Which levels the weights take.
+    """
+
+    inputs: int
+    outputs: int
+    units: int = 100
+    bits: int = FLOAT
+    output_bits: int = FLOAT
+    levels: Levels = Levels.HALF
+
+
+class LstmModule(nn.Module):
+    """One LSTM layer and a linear output, quantised as ``shape`` says."""
+
+    def __init__(self, shape: Shape) -> None:
+        super().__init__()
+        self.lstm = nn.LSTM(shape.inputs, shape.units, batch_first=True)
+        self.output = nn.Linear(shape.units, shape.outputs)
+        self._start_with_one_bias(shape.units)
+        for name in "weight_ih_l0", "weight_hh_l0":
+            quantise_while_training(self.lstm, name, shape.bits, levels=shape.levels, blocks=4)
+        quantise_while_training(self.output, "weight", shape.output_bits, levels=shape.levels)
+
+    def _start_with_one_bias(self, n: int) -> None:
+        """Leave one of torch's two biases out, and let the forget gate begin open."""
+        parameters = dict(self.lstm.named_parameters())
+        with torch.no_grad():
+            parameters["bias_hh_l0"].zero_()
+            parameters["bias_ih_l0"][n : 2 * n] = 1.0
+        parameters["bias_hh_l0"].requires_grad = False
+
+    def forward(self, x: Tensor) -> Tensor:
+        """Return the outputs ``(B, m)`` for the inputs ``(B, L, d)``."""
+        with parametrize.cached():
+            states, _ = self.lstm(x)
+            y: Tensor = self.output(states[:, -1])
+        return y
+
+    def raw_weights(self) -> Weights:
+        """Return the weights before quantisation; torch stacks the gates in the same order."""
+        arrays = {
+            name.replace("parametrizations.", "").replace(".original", ""): np.array(value)
+            for name, value in self.state_dict().items()
+        }
+        return Weights(
+            arrays["lstm.weight_ih_l0"],
+            arrays["lstm.weight_hh_l0"],
+            arrays["lstm.bias_ih_l0"],
+            arrays["output.weight"],
+            arrays["output.bias"],
+        )

@@ -1,0 +1,62 @@
+"""Quantisation while training: round on the way forward, not on the way back.
+
+The rounding has a gradient of zero wherever it has one, and clipped weights would never move
+again; so the gradient passes both unchanged (the straight-through estimator). The scale of each
+matrix follows its median and is a constant on the way back.
+"""
+
+from typing import Any
+
+import numpy as np
+import torch
+from torch import Tensor, nn
+from torch.nn.utils import parametrize
+
+from windopt.forecasting.quantisation import FLOAT, Levels, quantise
+
+
+class _OnLevels(torch.autograd.Function):
+    @staticmethod
+    def forward(ctx: Any, W: Tensor, bits: int, levels: Levels, blocks: int) -> Tensor:
+        parts = np.split(W.detach().numpy(), blocks)
+        return torch.from_numpy(
+            np.concatenate([quantise(part, bits, levels=levels).values for part in parts])
+        )
+
+    @staticmethod
+    def backward(ctx: Any, gradient: Tensor) -> tuple[Tensor, None, None, None]:
+        return gradient, None, None, None
+
+
+class OnLevels(nn.Module):
+    """A parametrisation that rounds a weight to its levels.
+
+    Parameters
+    ----------
+    bits, levels
+        Which levels.
+    blocks
+        Number of matrices stacked in the weight, each with a scale of its own.
+    """
+
+    def __init__(self, bits: int, levels: Levels, blocks: int) -> None:
+        super().__init__()
+        self.bits, self.levels, self.blocks = bits, levels, blocks
+
+    def forward(self, W: Tensor) -> Tensor:
+        """Return ``W`` on its levels, with the gradient of ``W`` itself."""
+        on_levels: Tensor = _OnLevels.apply(  # type: ignore[no-untyped-call]
+            W, self.bits, self.levels, self.blocks
+        )
+        return on_levels
+
+
+def quantise_while_training(
+    module: nn.Module, name: str, bits: int, *, levels: Levels = Levels.HALF, blocks: int = 1
+) -> None:
+    """Let ``module`` use its weight ``name`` on the levels of ``bits`` bits; 32 leaves it alone."""
+    if bits != FLOAT:
+        # torch checks a parametrisation by calling it, which an LSTM's flat weights do not allow.
+        parametrize.register_parametrization(
+            module, name, OnLevels(bits, levels, blocks), unsafe=True
+        )
