@@ -25,7 +25,7 @@ def weights(shape=(40, 30), seed=0):
 @pytest.mark.parametrize("bits", BITS)
 def test_every_entry_obeys_the_equation(bits):
     W = weights((5, 7)).astype(float)
-    q, s = 2**bits - 1, 2.5 * np.median(np.abs(W))
+    q, s = 2**bits - 1, float(np.float32(2.5 * np.median(np.abs(W))))
     for w, value in zip(W.flat, quantise(W, bits).values.flat, strict=True):
         x = min(max(w / s, -0.5), 0.5) + 0.5
         assert value == pytest.approx(s * (floor(q * x + 0.5) / q - 0.5), rel=1e-6)

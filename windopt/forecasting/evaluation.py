@@ -1,55 +1,19 @@
-"""Backtests: how wrong forecasters were on a series they have not seen, step by step.
-
-Directions are scored on the circle: 359 and 1 degrees are 2 degrees apart. Scores hold one value
-for each step ahead; their means over the horizon are what a table shows first.
-"""
+"""Backtests: how wrong forecasters were on windows they have not seen, side by side."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from windopt.domain.wind import Floats, WindSeries
+from windopt.domain.wind import WindSeries
 from windopt.errors import InvalidInput
+from windopt.forecasting.autoregression import LinearAutoregression
+from windopt.forecasting.conformal_persistence import ConformalPersistence
+from windopt.forecasting.faults import without_faults
 from windopt.forecasting.forecaster import Forecaster
 from windopt.forecasting.persistence import Persistence
-from windopt.forecasting.windows import Windows, windows
-
-
-def angle_between(a: Floats, b: Floats) -> Floats:
-    """Return the turn from ``b`` to ``a`` on the circle [rad], in [-pi, pi)."""
-    return (a - b + np.pi) % (2 * np.pi) - np.pi
-
-
-@dataclass(frozen=True)
-class Score:
-    """Errors of one forecaster at each step ahead, shapes ``(H,)``.
-
-    Parameters
-    ----------
-    speed_mae, speed_rmse
-        Mean absolute and root mean square error of the wind speed [m/s].
-    direction_mae, direction_rmse
-        The same of the direction, on the circle [rad].
-    """
-
-    name: str
-    speed_mae: Floats
-    speed_rmse: Floats
-    direction_mae: Floats
-    direction_rmse: Floats
-
-    def skill(self, reference: "Score") -> tuple[float, float]:
-        """Fraction by which the mean errors of speed and direction lie below ``reference``'s."""
-        return (
-            _skill(self.speed_mae, reference.speed_mae),
-            _skill(self.direction_mae, reference.direction_mae),
-        )
-
-
-def _skill(error: Floats, reference: Floats) -> float:
-    """Skill [-]; NaN where the reference makes no error."""
-    return float(1 - error.mean() / reference.mean()) if reference.any() else float("nan")
+from windopt.forecasting.scores import Score, score
+from windopt.forecasting.windows import Windows, chronological_split, windows
 
 
 @dataclass(frozen=True)
@@ -66,12 +30,15 @@ class Backtest:
         How many forecasts each forecaster made.
     scores
         One for each forecaster.
+    notes
+        What was masked before.
     """
 
     series: str
     step: np.timedelta64
     windows: int
     scores: tuple[Score, ...]
+    notes: tuple[str, ...] = ()
 
     def __getitem__(self, name: str) -> Score:
         return next(score for score in self.scores if score.name == name)
@@ -100,18 +67,37 @@ def backtest(forecasters: Sequence[Forecaster], series: WindSeries) -> Backtest:
     test = windows(series, history=history, horizon=horizon)
     methods: list[Forecaster] = [Persistence(history, horizon), *rivals]
     scores = tuple(_score(forecaster, test) for forecaster in methods)
-    return Backtest(series.source, series.step, len(test), scores)
+    return Backtest(series.source, series.step, len(test), scores, series.notes)
+
+
+def evaluate(
+    forecasters: Sequence[Forecaster], series: WindSeries, *, test: float = 1 / 3
+) -> Backtest:
+    """Score trained forecasters on the last fraction ``test`` of a measured series.
+
+    Faults of sensors are masked first. Beside the forecasters stand persistence, with bands of
+    constant width, and linear autoregression, both fitted to what comes before the test.
+
+    Raises
+    ------
+    InvalidInput
+        As :func:`backtest`.
+    """
+    before, after = chronological_split(without_faults(series), test)
+    history, horizon = (
+        (forecasters[0].history, forecasters[0].horizon)
+        if forecasters
+        else (Persistence.history, Persistence.horizon)
+    )
+    rivals: list[Forecaster] = [
+        LinearAutoregression(history, horizon).fit(before),
+        ConformalPersistence(history, horizon).fit(before),
+    ]
+    return backtest([*rivals, *forecasters], after)
 
 
 def _score(forecaster: Forecaster, test: Windows) -> Score:
     """Errors of one forecaster over all windows."""
-    sums = np.zeros((4, test.horizon))
-    for block in test.blocks():
-        ahead, future = forecaster.forecast(block.past, test.series.step), block.future
-        speed = ahead.speed - future.speed
-        turn = angle_between(ahead.theta_met, future.theta_met)
-        sums += np.stack([np.abs(speed), speed**2, np.abs(turn), turn**2]).sum(axis=1)
-    speed_mae, speed_mse, direction_mae, direction_mse = sums / len(test)
-    return Score(
-        forecaster.name, speed_mae, np.sqrt(speed_mse), direction_mae, np.sqrt(direction_mse)
-    )
+    step = test.series.step
+    cases = ((forecaster.forecast(block.past, step), block) for block in test.blocks())
+    return score(forecaster.name, cases, test)

@@ -75,7 +75,7 @@ class IntegerNetwork:
     """
 
     def __init__(self, weights: QuantisedWeights, steps: int = 64) -> None:
-        if max(matrix.bits for matrix in (*weights.W, *weights.U, weights.W_y)) > 8:
+        if max(matrix.bits for matrix in weights.matrices) > 8:
             raise InvalidInput("bits", "at most 8 for integer arithmetic", "more")
         biases = np.split(weights.b, 4)
         i, f, g, o = (_Gate(*parts) for parts in zip(weights.W, weights.U, biases, strict=True))

@@ -1,7 +1,7 @@
 """The LSTM as a forecaster: one that learns, and one that runs a trained model without torch."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from enum import StrEnum
 from functools import cached_property
 from importlib import resources

@@ -31,19 +31,18 @@ SINGLE = np.dtype("<f4")
 def dumps(model: Model) -> bytes:
     """Return the bytes of the model's file."""
     weights, scaling, calibration = model.weights, model.scaling, model.calibration
-    quantised = isinstance(weights, QuantisedWeights)
-    matrices = (*weights.W, *weights.U, weights.W_y) if quantised else ()
+    matrices = weights.matrices if isinstance(weights, QuantisedWeights) else ()
+    bits = [matrices[0].bits, matrices[-1].bits] if matrices else [FLOAT, FLOAT]
     header = {
         "windopt model": VERSION,
         "target": model.target,
         "minutes": [_minutes(t) for t in (model.step, model.history, model.horizon)],
         "units": model.float_weights.units,
-        "bits": [matrices[0].bits, matrices[-1].bits] if quantised else [FLOAT, FLOAT],
-        "levels": (matrices[0].levels if quantised else Levels.HALF).value,
+        "bits": bits,
+        "levels": (matrices[0].levels if matrices else Levels.HALF).value,
     }
-    small = quantised and max(header["bits"]) <= 8
-    biases = np.concatenate([weights.b, weights.b_y]).astype("<f2" if small else SINGLE)
-    floats = [
+    biases = np.concatenate([weights.b, weights.b_y])
+    floats: list[NDArray[Any]] = [
         scaling.mean,
         scaling.deviation,
         scaling.outputs,
@@ -51,18 +50,18 @@ def dumps(model: Model) -> bytes:
         calibration.turn,
         np.array(calibration.memory),
     ]
-    if quantised:
+    codes = np.zeros(0, dtype=np.uint8)
+    if isinstance(weights, Weights):
+        floats += [weights.W, weights.U, weights.W_y]
+    else:
         floats.append(np.array([matrix.s for matrix in matrices]))
         codes = np.concatenate([pack(matrix.codes, matrix.bits) for matrix in matrices])
-    else:
-        floats += [weights.W, weights.U, weights.W_y]
-        codes = np.zeros(0, dtype=np.uint8)
     buffer = io.BytesIO()
     np.savez(
         buffer,
         header=np.frombuffer(json.dumps(header, separators=(",", ":")).encode(), dtype=np.uint8),
         codes=codes,
-        biases=biases,
+        biases=biases.astype(np.float16 if max(bits) <= 8 else SINGLE),
         floats=np.concatenate([np.ravel(array) for array in floats]).astype(SINGLE),
     )
     return buffer.getvalue()

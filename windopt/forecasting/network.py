@@ -79,7 +79,10 @@ class Weights:
         blocks = (*np.split(self.W, 4), *np.split(self.U, 4))
         gates = tuple(quantise(block, bits, levels=levels, gamma=gamma) for block in blocks)
         y = quantise(self.W_y, output_bits or bits, levels=levels, gamma=gamma)
-        return QuantisedWeights(gates[:4], gates[4:], self.b, y, self.b_y)
+        b, b_y = self.b, self.b_y
+        if max(bits, output_bits or bits) <= 8:  # their own rounding drowns in the weights'
+            b, b_y = (bias.astype(np.float16).astype(np.float32) for bias in (b, b_y))
+        return QuantisedWeights(gates[:4], gates[4:], b, y, b_y)
 
     def rounded(
         self, bits: int, output_bits: int | None = None, *, levels: Levels = Levels.HALF
@@ -97,7 +100,7 @@ class Weights:
 
 @dataclass(frozen=True)
 class QuantisedWeights:
-    """The same with the nine matrices quantised; biases stay in floating point.
+    """The same with the nine matrices quantised; biases stay floats, of 16 bits beside 8 or fewer.
 
     Parameters
     ----------
@@ -112,6 +115,11 @@ class QuantisedWeights:
     b: Single
     W_y: Quantised
     b_y: Single
+
+    @property
+    def matrices(self) -> tuple[Quantised, ...]:
+        """All nine matrices, the output's last."""
+        return (*self.W, *self.U, self.W_y)
 
     @property
     def weights(self) -> Weights:

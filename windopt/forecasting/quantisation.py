@@ -57,7 +57,8 @@ def scale(W: NDArray[np.floating], gamma: float = GAMMA) -> float:
     A matrix of which most entries are zero has no median to speak of; its largest entry stands in.
     """
     median = float(np.median(np.abs(W)))
-    return gamma * median or 2 * float(np.max(np.abs(W))) or 1.0
+    s = gamma * median or 2 * float(np.max(np.abs(W))) or 1.0
+    return float(np.float32(s))  # as files keep it
 
 
 @dataclass(frozen=True)
