@@ -13,6 +13,7 @@ import numpy as np
 
 from windopt.domain.quantiles import Quantiles
 from windopt.domain.wind import Floats
+from windopt.errors import InvalidInput
 from windopt.forecasting.targets import LEVELS, TURN_LIMIT, wrapped
 from windopt.forecasting.windows import Traces
 
@@ -41,6 +42,14 @@ class Calibration:
     speed: Floats
     turn: Floats
     memory: tuple[float, float] = (0.5, 0.5)
+
+    def __post_init__(self) -> None:
+        shape = (len(SPEED_CLASSES) + 1, len(LEVELS))
+        for name, factors in (("speed", self.speed), ("turn", self.turn)):
+            if factors.shape != shape or not (factors >= 0).all() or not np.isfinite(factors).all():
+                raise InvalidInput(f"calibration of {name}", f">= 0, of shape {shape}", factors)
+        if not all(0 <= a < np.inf for a in self.memory):
+            raise InvalidInput("memory of errors", ">= 0", self.memory)
 
     @classmethod
     def none(cls) -> "Calibration":

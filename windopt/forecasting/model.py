@@ -62,12 +62,18 @@ class Model:
             ("input mean", self.scaling.mean, (way.inputs,)),
             ("input deviation", self.scaling.deviation, (way.inputs,)),
             ("output scale", self.scaling.outputs, (H, way.outputs)),
+            ("gate bias", self.weights.b, (4 * self.units,)),
             ("output bias", self.weights.b_y, (H * way.outputs,)),
         ):
             if array.shape != shape:
                 raise InvalidInput(name, f"of shape {shape}", array.shape)
             if not np.isfinite(array).all():
                 raise InvalidInput(name, "to be finite", "NaN or infinity")
+
+    @property
+    def units(self) -> int:
+        """Number of hidden units."""
+        return len(self.weights.b) // 4
 
     def with_calibration(self, calibration: Calibration) -> "Model":
         """Return the model with other factors on its quantiles."""

@@ -1,9 +1,10 @@
 """Model files: one ``.npz`` with packed weights and nothing that runs when read.
 
-A file holds four arrays: ``header`` (JSON as bytes: version, sizes, bits, durations), ``codes``
-(the nine quantised matrices packed one after the other; empty in floating point), ``biases``
-(float16 beside weights of up to 8 bits, else float32) and ``floats`` (float32: scales of the
-matrices, scaling, calibration, and matrices in floating point).
+A file holds three arrays: ``header`` (JSON as bytes: version, sizes, bits, durations), ``packed``
+(bytes: the nine quantised matrices one after the other, then the biases, float16 beside weights of
+up to 8 bits, else float32) and ``floats`` (float32: scaling, calibration, and either the scales of
+the matrices or, in floating point, the matrices themselves). Every array costs a quarter of a
+kilobyte to name, so there are no more.
 """
 
 import io
@@ -37,7 +38,7 @@ def dumps(model: Model) -> bytes:
         "windopt model": VERSION,
         "target": model.target,
         "minutes": [_minutes(t) for t in (model.step, model.history, model.horizon)],
-        "units": model.float_weights.units,
+        "units": model.units,
         "bits": bits,
         "levels": (matrices[0].levels if matrices else Levels.HALF).value,
     }
@@ -60,8 +61,7 @@ def dumps(model: Model) -> bytes:
     np.savez(
         buffer,
         header=np.frombuffer(json.dumps(header, separators=(",", ":")).encode(), dtype=np.uint8),
-        codes=codes,
-        biases=biases.astype(np.float16 if max(bits) <= 8 else SINGLE),
+        packed=np.concatenate([codes, biases.astype(_bias_type(bits)).view(np.uint8)]),
         floats=np.concatenate([np.ravel(array) for array in floats]).astype(SINGLE),
     )
     return buffer.getvalue()
@@ -80,8 +80,8 @@ def loads(content: bytes, name: str = "model file") -> Model:
     try:
         with np.load(io.BytesIO(content), allow_pickle=False) as arrays:
             header = json.loads(arrays["header"].tobytes().decode())
-            codes, biases, floats = (arrays[key] for key in ("codes", "biases", "floats"))
-        return _model(header, codes, biases.astype(np.float32), _Reader(floats))
+            packed, floats = arrays["packed"], arrays["floats"]
+        return _model(header, packed, _Reader(floats))
     except InvalidInput:
         raise
     except (
@@ -135,59 +135,54 @@ class _Reader:
             raise InvalidInput("floats", "no more", len(self._rest))
 
 
-def _model(
-    header: dict[str, Any], codes: NDArray[Any], biases: NDArray[np.float32], floats: _Reader
-) -> Model:
+def _model(header: dict[str, Any], packed: NDArray[Any], floats: _Reader) -> Model:
     if header.get("windopt model") != VERSION:
         raise InvalidInput("version of model file", f"{VERSION}", header.get("windopt model"))
     if header["target"] not in TARGETS:
         raise InvalidInput("target", f"among {', '.join(TARGETS)}", header["target"])
     step, history, horizon = (np.timedelta64(int(m), "m") for m in header["minutes"])
     way, n = TARGETS[header["target"]], int(header["units"])
+    if not step > np.timedelta64(0):
+        raise InvalidInput("step", "> 0", step)
     H = int(horizon / step)
     d, k, m = way.inputs, way.outputs, H * way.outputs
     classes = (len(SPEED_CLASSES) + 1, len(LEVELS))
     scaling = Scaling(floats.take(d), floats.take(d), floats.take(H, k))
     speed, turn = (floats.take(*classes).astype(float) for _ in range(2))
     a, b = (float(x) for x in floats.take(2))
-    if biases.shape != (4 * n + m,):
-        raise InvalidInput("biases", f"of shape {(4 * n + m,)}", biases.shape)
-    bits, output_bits = (int(b) for b in header["bits"])
-    weights: Weights | QuantisedWeights
-    if bits == FLOAT:
-        W, U, W_y = floats.take(4 * n, d), floats.take(4 * n, n), floats.take(m, n)
-        weights = Weights(W, U, biases[: 4 * n], W_y, biases[4 * n :])
-    else:
-        shapes = [(n, d)] * 4 + [(n, n)] * 4 + [(m, n)]
-        widths = [bits] * 8 + [output_bits]
-        gates = _matrices(codes, shapes, widths, Levels(header["levels"]), floats.take(9))
-        weights = QuantisedWeights(
-            gates[:4], gates[4:8], biases[: 4 * n], gates[8], biases[4 * n :]
-        )
+    weights = _weights(header, packed, floats, (n, d, m))
     floats.end()
     return Model(
         header["target"], step, history, horizon, weights, scaling, Calibration(speed, turn, (a, b))
     )
 
 
-def _matrices(
-    codes: NDArray[Any],
-    shapes: list[tuple[int, int]],
-    widths: list[int],
-    levels: Levels,
-    scales: NDArray[np.float32],
-) -> tuple[Quantised, ...]:
-    """Unpack the quantised matrices, which fill ``codes`` to the last byte."""
-    sizes = [
-        -(-rows * columns * bits // 8) for (rows, columns), bits in zip(shapes, widths, strict=True)
-    ]
-    if codes.dtype != np.uint8 or codes.shape != (sum(sizes),):
-        raise InvalidInput("packed weights", f"of {sum(sizes)} bytes", codes.shape)
-    parts = np.split(codes, np.cumsum(sizes)[:-1])
-    return tuple(
-        Quantised(unpack(part, bits, shape[0] * shape[1]).reshape(shape), float(s), bits, levels)
-        for part, shape, bits, s in zip(parts, shapes, widths, scales, strict=True)
+def _weights(
+    header: dict[str, Any], packed: NDArray[Any], floats: _Reader, sizes: tuple[int, int, int]
+) -> Weights | QuantisedWeights:
+    """Weights of n units, d inputs and m outputs."""
+    n, d, m = sizes
+    bits, output_bits = (int(b) for b in header["bits"])
+    shapes = [(n, d)] * 4 + [(n, n)] * 4 + [(m, n)]
+    widths = [] if bits == FLOAT else [bits] * 8 + [output_bits]
+    lengths = [-(-a * b * k // 8) for (a, b), k in zip(shapes, widths, strict=False)]
+    kind = _bias_type([bits, output_bits])
+    if packed.dtype != np.uint8 or packed.shape != (sum(lengths) + (4 * n + m) * kind.itemsize,):
+        raise InvalidInput("packed weights", "as long as the header says", packed.shape)
+    *codes, rest = np.split(packed, np.cumsum(lengths))
+    b, b_y = np.split(rest.view(kind).astype(np.float32), [4 * n])
+    if bits == FLOAT:
+        return Weights(floats.take(4 * n, d), floats.take(4 * n, n), b, floats.take(m, n), b_y)
+    levels, scales = Levels(header["levels"]), floats.take(9)
+    matrices = tuple(
+        Quantised(unpack(part, k, rows * columns).reshape(rows, columns), float(s), k, levels)
+        for part, (rows, columns), k, s in zip(codes, shapes, widths, scales, strict=True)
     )
+    return QuantisedWeights(matrices[:4], matrices[4:8], b, matrices[8], b_y)
+
+
+def _bias_type(bits: list[int]) -> np.dtype[Any]:
+    return np.dtype("<f2") if max(bits) <= 8 else SINGLE
 
 
 def _minutes(duration: np.timedelta64) -> int:
