@@ -10,6 +10,7 @@ import torch
 from windopt.domain.wind import WindSeries
 from windopt.errors import InvalidInput
 from windopt.forecasting.calibration import Calibration, calibrate
+from windopt.forecasting.faults import without_faults
 from windopt.forecasting.model import Model, Scaling
 from windopt.forecasting.network import FloatNetwork
 from windopt.forecasting.quantisation import FLOAT, Levels
@@ -72,7 +73,9 @@ def fit(
     progress: Callable[[Epoch], None] | None = None,
     checkpoint: Path | None = None,
 ) -> Model:
-    """Train a model on several series of one step, each with its own validation end.
+    """Train a model on several series of one step, with their faults masked.
+
+    The end of each series trains nothing: it stops the training and calibrates the quantiles.
 
     Raises
     ------
@@ -83,7 +86,7 @@ def fit(
     if len(steps) != 1:
         raise InvalidInput("series", "of one step", sorted(map(str, steps)))
     way = TARGETS[recipe.target]
-    pairs = [chronological_split(one, recipe.validation) for one in series]
+    pairs = [chronological_split(without_faults(one), recipe.validation) for one in series]
     early, late = ([_found(part, recipe) for part in parts] for parts in zip(*pairs, strict=True))
     scaling, spread = _scaling(way, early)
     examples, validation = (_examples(way, part, scaling) for part in (early, late))

@@ -2,7 +2,6 @@
 
 from dataclasses import dataclass
 
-import numpy as np
 import torch
 from torch import Tensor, nn
 from torch.nn.utils import parametrize
@@ -64,7 +63,7 @@ class LstmModule(nn.Module):
     def raw_weights(self) -> Weights:
         """Return the weights before quantisation; torch stacks the gates in the same order."""
         arrays = {
-            name.replace("parametrizations.", "").replace(".original", ""): np.array(value)
+            name.replace("parametrizations.", "").replace(".original", ""): value.numpy().copy()
             for name, value in self.state_dict().items()
         }
         return Weights(
