@@ -122,6 +122,7 @@ class IntegerNetwork:
         at, inner = np.empty(total.shape, np.int64), np.empty((n, *many), np.int64)
         z = np.zeros((5 * n, *many), dtype=np.int64)  # o, i, f, g and c
         product = np.empty((2 * n, *many), dtype=np.int64)
+        pushed, kept = product[:n], product[n:]
         gates, o, c = z[: 4 * n], z[:n], z[4 * n :]
         left, right = z[n : 3 * n], z[3 * n :]  # (i, f) and (g, c)
         h = np.zeros((n, *many), dtype=self.exact)
@@ -133,13 +134,13 @@ class IntegerNetwork:
             np.right_shift(at, shift, at)
             self._table.take(at, out=gates, mode="clip")
             np.multiply(left, right, product)
-            np.add(product[:n], product[n:], c)
+            np.add(pushed, kept, c)
             np.add(c, rounding, c)
             np.right_shift(c, ONE_BITS, c)
             np.add(c, lowest, inner)
             np.right_shift(inner, CELL_BITS, inner)
-            self._tanh.take(inner, out=product[:n], mode="clip")
-            np.multiply(o, product[:n], inner)
+            self._tanh.take(inner, out=pushed, mode="clip")
+            np.multiply(o, pushed, inner)
             np.add(inner, rounding, inner)
             np.right_shift(inner, ONE_BITS, inner)
             np.copyto(h, inner, "unsafe")

@@ -17,9 +17,9 @@ from windopt.forecasting.evaluation import Backtest, backtest
 from windopt.forecasting.forecaster import issue
 from windopt.forecasting.integer_network import IntegerNetwork
 from windopt.forecasting.model import Model
-from windopt.forecasting.network import FloatNetwork, Network, QuantisedWeights
+from windopt.forecasting.network import FloatNetwork, Network, QuantisedWeights, Weights
 from windopt.forecasting.sparse_network import SparseNetwork
-from windopt.forecasting.windows import Traces
+from windopt.forecasting.windows import HISTORY, HORIZON, Traces
 
 if TYPE_CHECKING:
     from windopt.forecasting.training.fit import Recipe
@@ -43,20 +43,21 @@ class EdgeForecaster:
     Parameters
     ----------
     model
-        What a file holds.
+        What a file holds; ``None`` is the model that comes with the package, which :meth:`fit`
+        chooses by the step of the series.
     arithmetic
         Floating point, or, for quantised weights, integers or sparse products.
     name
         What tables call it.
     """
 
-    model: Model
+    model: Model | None = None
     arithmetic: Arithmetic = Arithmetic.FLOAT
     name: str = "lstm"
 
     def __post_init__(self) -> None:
-        quantised = isinstance(self.model.weights, QuantisedWeights)
-        if self.arithmetic is not Arithmetic.FLOAT and not quantised:
+        in_floats = self.model is not None and isinstance(self.model.weights, Weights)
+        if self.arithmetic is not Arithmetic.FLOAT and in_floats:
             raise InvalidInput("arithmetic", "float for weights in floating point", self.arithmetic)
 
     @classmethod
@@ -88,26 +89,27 @@ class EdgeForecaster:
     @property
     def history(self) -> np.timedelta64:
         """How far it looks back."""
-        return self.model.history
+        return HISTORY if self.model is None else self.model.history
 
     @property
     def horizon(self) -> np.timedelta64:
         """How far it looks ahead."""
-        return self.model.horizon
+        return HORIZON if self.model is None else self.model.horizon
 
     @cached_property
     def network(self) -> Network:
         """The network in the arithmetic asked for."""
-        weights = self.model.weights
+        model = self._chosen()
+        weights = model.weights
         if isinstance(weights, QuantisedWeights) and self.arithmetic is Arithmetic.INTEGER:
             return IntegerNetwork(weights)
         if isinstance(weights, QuantisedWeights) and self.arithmetic is Arithmetic.SPARSE:
             return SparseNetwork(weights)
-        return FloatNetwork(self.model.float_weights)
+        return FloatNetwork(model.float_weights)
 
     def fit(self, series: WindSeries) -> Self:
-        """Return itself: it has been trained."""
-        return self
+        """Return itself, as it has been trained, or the shipped model for this step."""
+        return self if self.model else self.shipped(series.step, arithmetic=self.arithmetic)
 
     def forecast(self, past: Traces, step: np.timedelta64) -> Traces:
         """Return the forecast after each trace, with calibrated quantiles.
@@ -117,9 +119,10 @@ class EdgeForecaster:
         InvalidInput
             If the model was trained on another step.
         """
-        if step != self.model.step:
-            raise InvalidInput("step", f"{self.model.step}, which the model is for", step)
-        return self.model.forecast(self.network, past)
+        model = self._chosen()
+        if step != model.step:
+            raise InvalidInput("step", f"{model.step}, which the model is for", step)
+        return model.forecast(self.network, past)
 
     def predict(self, history: WindSeries) -> WindForecast:
         """Return the forecast after the last row of ``history``."""
@@ -131,7 +134,12 @@ class EdgeForecaster:
 
     def save(self, path: str | Path) -> None:
         """Write the model's file, whole or not at all."""
-        model_file.save(self.model, Path(path))
+        model_file.save(self._chosen(), Path(path))
+
+    def _chosen(self) -> Model:
+        if self.model is None:
+            raise InvalidInput("lstm", "to be fitted first, which chooses its model", "no model")
+        return self.model
 
 
 @dataclass(frozen=True)

@@ -157,17 +157,18 @@ class FloatNetwork:
         a[:, -1] = 1.0
         z = np.zeros((5 * n, *many), dtype=np.float32)  # o, i, f, the cell's gate, and c
         product = np.empty((2 * n, *many), dtype=np.float32)
+        pushed, kept = product[:n], product[n:]
         one, half = np.ones_like(z[: 3 * n]), np.full_like(z[:n], 0.5)
-        gates, logistic, c = z[: 4 * n], z[: 3 * n], z[4 * n :]
+        gates, logistic, o, c = z[: 4 * n], z[: 3 * n], z[:n], z[4 * n :]
         left, right = z[n : 3 * n], z[3 * n :]  # (i, f) and (gate, c)
         for now, h in zip(a, a[1:, :n], strict=False):
             np.dot(self._A, now, gates)
             np.tanh(gates, gates)
             np.add(logistic, one, logistic)
             np.multiply(left, right, product)
-            np.add(product[:n], product[n:], c)
+            np.add(pushed, kept, c)
             np.multiply(c, half, c)
             np.tanh(c, h)
-            np.multiply(h, z[:n], h)
+            np.multiply(h, o, h)
         y: Single = (self._W_y @ a[L, :n].reshape(n, B) + self._b_y).T
         return y
