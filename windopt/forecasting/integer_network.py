@@ -93,10 +93,9 @@ class IntegerNetwork:
         self._shift = np.repeat([gate.shift for gate in gates], self._n)[:, None]
         middle = starts + [gate.half for gate in gates]
         self._middle = np.repeat(middle, self._n)[:, None] << self._shift
-        cells = (np.arange(-steps * ONE >> CELL_BITS, steps * ONE >> CELL_BITS) + 0.5) / (
-            ONE >> CELL_BITS
-        )
-        self._tanh = np.rint(ONE * np.tanh(cells)).astype(np.int64)
+        half = steps * ONE >> CELL_BITS  # a cell gains one at most in a step
+        cells = (np.roll(np.arange(-half, half), half) + 0.5) / (ONE >> CELL_BITS)
+        self._tanh = np.rint(ONE * np.tanh(cells)).astype(np.int64)  # wraps: -1 is the last entry
         self._W_y = weights.W_y.integers.astype(np.float64)
         self._unit_y, self._b_y = weights.W_y.unit / ONE, weights.b_y
 
@@ -126,7 +125,7 @@ class IntegerNetwork:
         gates, o, c = z[: 4 * n], z[:n], z[4 * n :]
         left, right = z[n : 3 * n], z[3 * n :]  # (i, f) and (g, c)
         h = np.zeros((n, *many), dtype=self.exact)
-        rounding, lowest = np.int64(ONE >> 1), np.int64(self._steps * ONE)
+        rounding = np.int64(ONE >> 1)
         for P in driven:
             np.dot(self._U, h, total)
             np.copyto(at, total, "unsafe")
@@ -137,9 +136,8 @@ class IntegerNetwork:
             np.add(pushed, kept, c)
             np.add(c, rounding, c)
             np.right_shift(c, ONE_BITS, c)
-            np.add(c, lowest, inner)
-            np.right_shift(inner, CELL_BITS, inner)
-            self._tanh.take(inner, out=pushed, mode="clip")
+            np.right_shift(c, CELL_BITS, inner)
+            self._tanh.take(inner, out=pushed, mode="wrap")
             np.multiply(o, pushed, inner)
             np.add(inner, rounding, inner)
             np.right_shift(inner, ONE_BITS, inner)
