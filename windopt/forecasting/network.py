@@ -85,16 +85,22 @@ class Weights:
         return QuantisedWeights(gates[:4], gates[4:], b, y, b_y)
 
     def rounded(
-        self, bits: int, output_bits: int | None = None, *, levels: Levels = Levels.HALF
+        self,
+        bits: int,
+        output_bits: int | None = None,
+        *,
+        levels: Levels = Levels.HALF,
+        gamma: float = GAMMA,
     ) -> "Weights":
         """Return the weights on the levels of a bit width each; 32 bits leave them as they are."""
         output_bits = output_bits or bits
         rounded = self
         if bits != FLOAT:
-            on_levels = self.quantised(bits, bits, levels=levels).weights
+            on_levels = self.quantised(bits, bits, levels=levels, gamma=gamma).weights
             rounded = replace(self, W=on_levels.W, U=on_levels.U)
         if output_bits != FLOAT:
-            rounded = replace(rounded, W_y=quantise(self.W_y, output_bits, levels=levels).values)
+            W_y = quantise(self.W_y, output_bits, levels=levels, gamma=gamma).values
+            rounded = replace(rounded, W_y=W_y)
         return rounded
 
 

@@ -54,6 +54,10 @@ class Target(Protocol):
     def columns(self) -> tuple[int, ...]:
         """Which component of the truth each output is about."""
 
+    @property
+    def mirror(self) -> tuple[tuple[int, ...], tuple[int, ...]]:
+        """Inputs and truths that change sign when left and right are exchanged."""
+
     def encode(self, past: Traces) -> Single:
         """Return the inputs, shape ``(B, L, d)``, before they are standardised."""
 
@@ -91,6 +95,7 @@ class ResidualTarget:
     inputs: int = 5
     outputs: int = 2 + len(LEVELS) + len(LEVELS) - 1
     columns: tuple[int, ...] = (0, 1, *[2] * len(LEVELS), *[3] * (len(LEVELS) - 1))
+    mirror: tuple[tuple[int, ...], tuple[int, ...]] = ((1,), (1, 3))
 
     def encode(self, past: Traces) -> Single:
         """Return velocity and speed since the last, the last speed and the deviation."""
@@ -142,6 +147,7 @@ class RawTarget:
     inputs: int = 2
     outputs: int = 2
     columns: tuple[int, ...] = (0, 1)
+    mirror: tuple[tuple[int, ...], tuple[int, ...]] = ((), ())
 
     def encode(self, past: Traces) -> Single:
         """Return speed and direction between 0 and 1."""

@@ -15,6 +15,8 @@ from windopt.forecasting.network import Weights
 from windopt.forecasting.training.losses import Loss
 from windopt.forecasting.training.module import LstmModule, Shape
 
+Mirror = tuple[tuple[int, ...], tuple[int, ...]]  # see windopt.forecasting.targets.Target
+
 logger = logging.getLogger(__name__)
 
 
@@ -80,6 +82,19 @@ class Examples:
         """Return the examples ``rows``."""
         return Examples(self.x[rows], self.y[rows], self.measured[rows])
 
+    def mirrored(self, mirror: Mirror, generator: torch.Generator) -> "Examples":
+        """Exchange left and right in half of the examples, chosen at random.
+
+        Turning air knows hardly more of left than of right: this doubles what there is to learn.
+        """
+        sign = 1.0 - 2.0 * torch.randint(0, 2, (len(self), 1, 1), generator=generator)
+        inputs, truths = (torch.ones(part.shape[-1]) for part in (self.x, self.y))
+        for ones, columns in zip((inputs, truths), mirror, strict=True):
+            ones[list(columns)] = -1.0
+        x = torch.where(sign * inputs.abs() < 0, self.x * inputs, self.x)
+        y = torch.where(sign * truths.abs() < 0, self.y * truths, self.y)
+        return Examples(x, y, self.measured)
+
 
 def train(
     shape: Shape,
@@ -88,6 +103,7 @@ def train(
     loss: Loss,
     *,
     scale: Tensor,
+    mirror: Mirror = ((), ()),
     schedule: Schedule,
     seed: int,
     progress: Callable[[Epoch], None] | None = None,
@@ -99,6 +115,8 @@ def train(
     ----------
     scale
         What the network's outputs count, shape ``(H, k)``.
+    mirror
+        Inputs and truths that change sign when left and right are exchanged.
     progress
         Called after each epoch.
     checkpoint
@@ -123,13 +141,12 @@ def train(
         if number - state.best_epoch > schedule.patience and state.best_epoch:
             logger.info("no better validation loss since epoch %d", state.best_epoch)
             break
-        order = torch.randperm(
-            len(examples), generator=torch.Generator().manual_seed(seed + number)
-        )
+        draws = torch.Generator().manual_seed(1000 * seed + number)
+        order = torch.randperm(len(examples), generator=draws)
         total = 0.0
         for rows in order[: steps * schedule.batch].chunk(steps):
             optimiser.zero_grad()
-            value = error(examples.at(rows))
+            value = error(examples.at(rows).mirrored(mirror, draws))
             value.backward()  # type: ignore[no-untyped-call]
             nn.utils.clip_grad_norm_(module.parameters(), 1.0)
             optimiser.step()

@@ -35,6 +35,8 @@ def residual_loss(scale: Tensor) -> Loss:
     scale
         Spread of each residual at each step ahead, shape ``(H, 4)``, so that steps and residuals
         weigh alike.
+
+    The velocity counts little beside its angle, which is what is forecast with it.
     """
 
     def loss(outputs: Tensor, truth: Tensor, inputs: Tensor) -> Tensor:
@@ -47,6 +49,6 @@ def residual_loss(scale: Tensor) -> Loss:
         unit = scale[..., None]
         speed = pinball(outputs[..., 2:7] / unit[:, 2], truth[..., 2] / scale[:, 2], LEVELS)
         spread = pinball(outputs[..., 7:] / unit[:, 3], truth[..., 3] / scale[:, 3], OUTER)
-        return 0.25 * velocity + 0.5 * direction + 2.0 * speed + 1.5 * spread
+        return 0.05 * velocity + 0.6 * direction + 2.0 * speed + 1.5 * spread
 
     return loss

@@ -1,13 +1,14 @@
 """The network as torch trains it, and its way out into NumPy."""
 
 from dataclasses import dataclass
+from functools import partial
 
 import torch
 from torch import Tensor, nn
 from torch.nn.utils import parametrize
 
 from windopt.forecasting.network import Weights
-from windopt.forecasting.quantisation import FLOAT, Levels
+from windopt.forecasting.quantisation import FLOAT, GAMMA, Levels
 from windopt.forecasting.training.straight_through import quantise_while_training
 
 
@@ -21,8 +22,8 @@ class Shape:
         Inputs at each step, hidden units, and outputs altogether.
     bits, output_bits
         omega_w of the gates and omega_f of the output layer; 32 is floating point.
-    levels
-        Which levels the weights take.
+    levels, gamma
+        Which levels the weights take, and how many medians wide they span.
     """
 
     inputs: int
@@ -31,6 +32,7 @@ class Shape:
     bits: int = FLOAT
     output_bits: int = FLOAT
     levels: Levels = Levels.HALF
+    gamma: float = GAMMA
 
 
 class LstmModule(nn.Module):
@@ -41,9 +43,10 @@ class LstmModule(nn.Module):
         self.lstm = nn.LSTM(shape.inputs, shape.units, batch_first=True)
         self.output = nn.Linear(shape.units, shape.outputs)
         self._start_with_one_bias(shape.units)
+        quantise = partial(quantise_while_training, levels=shape.levels, gamma=shape.gamma)
         for name in "weight_ih_l0", "weight_hh_l0":
-            quantise_while_training(self.lstm, name, shape.bits, levels=shape.levels, blocks=4)
-        quantise_while_training(self.output, "weight", shape.output_bits, levels=shape.levels)
+            quantise(self.lstm, name, shape.bits, blocks=4)
+        quantise(self.output, "weight", shape.output_bits)
 
     def _start_with_one_bias(self, n: int) -> None:
         """Leave one of torch's two biases out, and let the forget gate begin open."""

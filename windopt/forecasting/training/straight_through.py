@@ -17,15 +17,16 @@ from windopt.forecasting.quantisation import FLOAT, Levels, quantise
 
 class _OnLevels(torch.autograd.Function):
     @staticmethod
-    def forward(ctx: Any, W: Tensor, bits: int, levels: Levels, blocks: int) -> Tensor:
+    def forward(
+        ctx: Any, W: Tensor, bits: int, levels: Levels, gamma: float, blocks: int
+    ) -> Tensor:
         parts = np.split(W.detach().numpy(), blocks)
-        return torch.from_numpy(
-            np.concatenate([quantise(part, bits, levels=levels).values for part in parts])
-        )
+        rounded = [quantise(part, bits, levels=levels, gamma=gamma).values for part in parts]
+        return torch.from_numpy(np.concatenate(rounded))
 
     @staticmethod
-    def backward(ctx: Any, gradient: Tensor) -> tuple[Tensor, None, None, None]:
-        return gradient, None, None, None
+    def backward(ctx: Any, gradient: Tensor) -> tuple[Tensor, None, None, None, None]:
+        return gradient, None, None, None, None
 
 
 class OnLevels(nn.Module):
@@ -33,30 +34,30 @@ class OnLevels(nn.Module):
 
     Parameters
     ----------
-    bits, levels
-        Which levels.
+    bits, levels, gamma
+        Which levels, and how wide they span.
     blocks
         Number of matrices stacked in the weight, each with a scale of its own.
     """
 
-    def __init__(self, bits: int, levels: Levels, blocks: int) -> None:
+    def __init__(self, bits: int, levels: Levels, gamma: float, blocks: int) -> None:
         super().__init__()
-        self.bits, self.levels, self.blocks = bits, levels, blocks
+        self.bits, self.levels, self.gamma, self.blocks = bits, levels, gamma, blocks
 
     def forward(self, W: Tensor) -> Tensor:
         """Return ``W`` on its levels, with the gradient of ``W`` itself."""
         on_levels: Tensor = _OnLevels.apply(  # type: ignore[no-untyped-call]
-            W, self.bits, self.levels, self.blocks
+            W, self.bits, self.levels, self.gamma, self.blocks
         )
         return on_levels
 
 
 def quantise_while_training(
-    module: nn.Module, name: str, bits: int, *, levels: Levels = Levels.HALF, blocks: int = 1
+    module: nn.Module, name: str, bits: int, *, levels: Levels, gamma: float, blocks: int = 1
 ) -> None:
     """Let ``module`` use its weight ``name`` on the levels of ``bits`` bits; 32 leaves it alone."""
     if bits != FLOAT:
         # torch checks a parametrisation by calling it, which an LSTM's flat weights do not allow.
         parametrize.register_parametrization(
-            module, name, OnLevels(bits, levels, blocks), unsafe=True
+            module, name, OnLevels(bits, levels, gamma, blocks), unsafe=True
         )
