@@ -54,9 +54,19 @@ def test_each_class_of_speed_is_calibrated_for_itself():
     assert inside[~light].mean() == pytest.approx(0.9, abs=0.01)
 
 
+def test_smooth_and_rough_winds_are_calibrated_apart():
+    ahead, past, future = cases()
+    rough = np.arange(4000) % 2 == 1
+    past.speed[rough, 1:-1:2] *= 1.3
+    future.speed[rough] = ahead.speed[rough] + 3 * (future.speed - ahead.speed)[rough]
+    inside, _ = coverage(calibrate([(ahead, past, future)]).apply(ahead, past), future)
+    assert inside[rough].mean() == pytest.approx(0.9, abs=0.01)
+    assert inside[~rough].mean() == pytest.approx(0.9, abs=0.01)
+
+
 def test_good_bands_are_left_nearly_as_they_are():
     found = calibrate([cases(B=10_000)])
-    assert found.speed == pytest.approx(np.ones((4, 5)), abs=0.1)
+    assert found.speed == pytest.approx(np.ones((8, 5)), abs=0.1)
 
 
 @pytest.mark.parametrize("memory", [0.3, 0.5, 0.9])
@@ -66,7 +76,7 @@ def test_the_memory_of_errors_is_found(memory):
 
 def test_a_class_with_few_windows_keeps_its_quantiles():
     ahead, past, future = cases(B=20, width=0.1)
-    assert calibrate([(ahead, past, future)]).speed.tolist() == np.ones((4, 5)).tolist()
+    assert calibrate([(ahead, past, future)]).speed.tolist() == np.ones((8, 5)).tolist()
 
 
 def test_no_calibration_changes_nothing():

@@ -27,7 +27,8 @@ def model(bits=4, output_bits=None, n=6, levels=Levels.HALF, seed=0):
     weights = Weights(*(rng.normal(0, 0.2, shape).astype(np.float32) for shape in shapes))
     scaling = Scaling(*(np.full(shape, 1.5, np.float32) for shape in [(5,), (5,), (8, 11)]))
     chosen = weights if bits == 32 else weights.quantised(bits, output_bits, levels=levels)
-    calibration = Calibration(np.full((4, 5), 1.25), np.full((4, 5), 0.75), (0.5, 0.25))
+    factors = np.array([1.25, 1.5, 1.0, 0.5, 0.75]) * np.ones((8, 1))
+    calibration = Calibration(factors, factors[:, ::-1].copy(), (0.5, 0.25))
     return Model("residual", STEP, HISTORY, HORIZON, chosen, scaling, calibration)
 
 

@@ -1,30 +1,43 @@
 """Calibration: quantiles widened or narrowed until they cover what they say, at every wind speed.
 
-Split-conformal prediction on windows that trained nothing: for each class of the last measured
-speed and each level p, the distance between quantile and median is multiplied by the p-quantile
-of (truth - median) / (quantile - median). Conditioning on speed matters because a direction is
-much less certain in a light wind. See Romano, Patterson & Candes (2019), arXiv:1905.03222.
+Split-conformal prediction on windows that trained nothing: for each class and each level p, the
+distance between quantile and median is multiplied by the p-quantile of (truth - median) /
+(quantile - median). Classes are those of the last measured speed, as a direction is much less
+certain in a light wind, each split into smooth and rough by how much the wind has fluctuated for
+its speed: over the sea and in a weather model it is smooth, near the ground rough. See Romano,
+Patterson & Candes (2019), arXiv:1905.03222.
 """
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from windopt.domain.quantiles import Quantiles
 from windopt.domain.wind import Floats
 from windopt.errors import InvalidInput
-from windopt.forecasting.targets import LEVELS, TURN_LIMIT, wrapped
+from windopt.forecasting.targets import LEVELS, SPEED_MIN, TURN_LIMIT, deviation, wrapped
 from windopt.forecasting.windows import Traces
 
 SPEED_CLASSES = (4.0, 8.0, 12.0)  # m/s, edges between four classes
+ROUGH = 0.06  # fluctuation over speed from which on a wind is rough [-]
+CLASSES = 2 * (len(SPEED_CLASSES) + 1)
 FEW = 300  # truths in a class, below which it keeps the quantiles as they are
 FACTOR_LIMITS = (0.25, 4.0)
 
+Classes = NDArray[np.intp]
 
-def speed_class(past: Traces) -> np.ndarray[tuple[int], np.dtype[np.intp]]:
+
+def speed_class(past: Traces) -> Classes:
     """Return the class of the last measured speed, shape ``(B,)``."""
     return np.digitize(past.speed[:, -1], SPEED_CLASSES)
+
+
+def calibration_class(past: Traces) -> Classes:
+    """Return the class of speed and roughness, shape ``(B,)``."""
+    rough = deviation(past)[:, 0] > ROUGH * (past.speed[:, -1] + SPEED_MIN)
+    return 2 * speed_class(past) + rough
 
 
 @dataclass(frozen=True)
@@ -34,7 +47,7 @@ class Calibration:
     Parameters
     ----------
     speed, turn
-        For each class of speed and each level [-], shape ``(4, Q)``.
+        For each class and each level [-], shape ``(8, Q)``.
     memory
         See :class:`windopt.domain.quantiles.Quantiles`.
     """
@@ -44,7 +57,7 @@ class Calibration:
     memory: tuple[float, float] = (0.5, 0.5)
 
     def __post_init__(self) -> None:
-        shape = (len(SPEED_CLASSES) + 1, len(LEVELS))
+        shape = (CLASSES, len(LEVELS))
         for name, factors in (("speed", self.speed), ("turn", self.turn)):
             if factors.shape != shape or not (factors >= 0).all() or not np.isfinite(factors).all():
                 raise InvalidInput(f"calibration of {name}", f">= 0, of shape {shape}", factors)
@@ -54,14 +67,14 @@ class Calibration:
     @classmethod
     def none(cls) -> "Calibration":
         """Leave quantiles as they are."""
-        ones = np.ones((len(SPEED_CLASSES) + 1, len(LEVELS)))
+        ones = np.ones((CLASSES, len(LEVELS)))
         return cls(ones, ones)
 
     def apply(self, ahead: Traces, past: Traces) -> Traces:
         """Return the forecast with calibrated quantiles."""
         if ahead.quantiles is None:
             return ahead
-        of = speed_class(past)
+        of = calibration_class(past)
         middle = ahead.speed[..., None]
         away = ahead.quantiles.speed - middle
         speed = np.maximum(middle + away * self.speed[of, None, :], 0.0)
@@ -80,7 +93,7 @@ def calibrate(cases: Iterable[tuple[Traces, Traces, Traces]]) -> Calibration:
     for ahead, past, future in cases:
         if ahead.quantiles is None:
             return Calibration.none()
-        of.append(np.repeat(speed_class(past), future.speed.shape[1]))
+        of.append(np.repeat(calibration_class(past), future.speed.shape[1]))
         for k, (error, away) in enumerate(
             (
                 (future.speed - ahead.speed, ahead.quantiles.speed - ahead.speed[..., None]),
@@ -96,9 +109,9 @@ def calibrate(cases: Iterable[tuple[Traces, Traces, Traces]]) -> Calibration:
     return Calibration(speed, turn, (a, b))
 
 
-def _factors(ratio: Floats, classes: np.ndarray[tuple[int], np.dtype[np.intp]]) -> Floats:
-    """Quantiles of the ratios ``(N, Q)`` within each class, shape ``(4, Q)``."""
-    factors = np.ones((len(SPEED_CLASSES) + 1, len(LEVELS)))
+def _factors(ratio: Floats, classes: Classes) -> Floats:
+    """Quantiles of the ratios ``(N, Q)`` within each class, shape ``(8, Q)``."""
+    factors = np.ones((CLASSES, len(LEVELS)))
     for k in range(len(factors)):
         inside = ratio[classes == k]
         if len(inside) < FEW:

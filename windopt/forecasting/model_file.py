@@ -18,15 +18,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from windopt.errors import InvalidInput
-from windopt.forecasting.calibration import SPEED_CLASSES, Calibration
+from windopt.forecasting.calibration import CLASSES, Calibration
 from windopt.forecasting.model import Model, Scaling
 from windopt.forecasting.network import QuantisedWeights, Weights
 from windopt.forecasting.quantisation import FLOAT, Levels, Quantised, pack, unpack
-from windopt.forecasting.targets import LEVELS, TARGETS
+from windopt.forecasting.targets import LEVELS, TARGETS, Target
 
 VERSION = 1
 SIZE_LIMIT = 64 * 2**20  # bytes; no model of this kind comes near
 SINGLE = np.dtype("<f4")
+OUTER = [j for j, level in enumerate(LEVELS) if level != 0.5]  # the median is not calibrated
 
 
 def dumps(model: Model) -> bytes:
@@ -46,9 +47,9 @@ def dumps(model: Model) -> bytes:
     floats: list[NDArray[Any]] = [
         scaling.mean,
         scaling.deviation,
-        scaling.outputs,
-        calibration.speed,
-        calibration.turn,
+        scaling.outputs[:, _first(model.way)],
+        calibration.speed[:, OUTER],
+        calibration.turn[:, OUTER],
         np.array(calibration.memory),
     ]
     codes = np.zeros(0, dtype=np.uint8)
@@ -145,10 +146,12 @@ def _model(header: dict[str, Any], packed: NDArray[Any], floats: _Reader) -> Mod
     if not step > np.timedelta64(0):
         raise InvalidInput("step", "> 0", step)
     H = int(horizon / step)
-    d, k, m = way.inputs, way.outputs, H * way.outputs
-    classes = (len(SPEED_CLASSES) + 1, len(LEVELS))
-    scaling = Scaling(floats.take(d), floats.take(d), floats.take(H, k))
-    speed, turn = (floats.take(*classes).astype(float) for _ in range(2))
+    d, m = way.inputs, H * way.outputs
+    mean, deviation = floats.take(d), floats.take(d)
+    scaling = Scaling(mean, deviation, floats.take(H, len(_first(way)))[:, way.columns])
+    speed, turn = np.ones((2, CLASSES, len(LEVELS)))
+    for factors in speed, turn:
+        factors[:, OUTER] = floats.take(CLASSES, len(OUTER))
     a, b = (float(x) for x in floats.take(2))
     weights = _weights(header, packed, floats, (n, d, m))
     floats.end()
@@ -183,6 +186,11 @@ def _weights(
 
 def _bias_type(bits: list[int]) -> np.dtype[Any]:
     return np.dtype("<f2") if max(bits) <= 8 else SINGLE
+
+
+def _first(way: Target) -> list[int]:
+    """Return the first output about each component of the truth: all about one share a scale."""
+    return [way.columns.index(component) for component in range(max(way.columns) + 1)]
 
 
 def _minutes(duration: np.timedelta64) -> int:

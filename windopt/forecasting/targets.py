@@ -79,7 +79,7 @@ def _in_frame(traces: Traces, past: Traces) -> tuple[Floats, Floats, Floats]:
     return traces.speed * np.cos(turn), traces.speed * np.sin(turn), turn
 
 
-def _deviation(past: Traces) -> Floats:
+def deviation(past: Traces) -> Floats:
     """D, how much the wind fluctuates from row to row [m/s], shape ``(B, 1)``."""
     a, c, _ = _in_frame(past, past)
     square = np.diff(a, axis=1) ** 2 + np.diff(c, axis=1) ** 2
@@ -100,7 +100,7 @@ class ResidualTarget:
     def encode(self, past: Traces) -> Single:
         """Return velocity and speed since the last, the last speed and the deviation."""
         a, c, _ = _in_frame(past, past)
-        s, d = past.speed[:, -1:], _deviation(past)
+        s, d = past.speed[:, -1:], deviation(past)
         level = np.broadcast_to(np.log1p(s), a.shape)
         spread = np.broadcast_to(np.log(d), a.shape)
         x = np.stack([(a - s) / d, c / d, (past.speed - s) / d, level, spread], axis=-1)
@@ -109,14 +109,14 @@ class ResidualTarget:
     def truth(self, past: Traces, future: Traces) -> Single:
         """Return the residuals of velocity, of speed and of direction, shape ``(B, H, 4)``."""
         a, c, turn = _in_frame(future, past)
-        s, d = past.speed[:, -1:], _deviation(past)
+        s, d = past.speed[:, -1:], deviation(past)
         y = np.stack([(a - s) / d, c / d, (future.speed - s) / d, turn * (s + SPEED_MIN) / d], -1)
         return y.astype(np.float32)
 
     def decode(self, outputs: Single, past: Traces) -> Traces:
         """Return direction from the velocity, speed from its median, and both with quantiles."""
         y = outputs.astype(float)
-        s, d = past.speed[:, -1:], _deviation(past)
+        s, d = past.speed[:, -1:], deviation(past)
         theta = np.arctan2(d * y[..., 1], s + d * y[..., 0])
         speed = np.sort(np.maximum(s[..., None] + d[..., None] * y[..., 2:7], 0.0), axis=-1)
         bounds = (d / (s + SPEED_MIN))[..., None] * y[..., 7:] - theta[..., None]

@@ -89,9 +89,11 @@ def fit(
     InvalidInput
         If the steps differ, or a series is too short to be split into training and validation.
     """
-    steps = {one.step for one in series}
-    if len(steps) != 1:
-        raise InvalidInput("series", "of one step", sorted(map(str, steps)))
+    if not series:
+        raise InvalidInput("series", "to be one at least", "none")
+    step = series[0].step
+    if any(one.step != step for one in series):
+        raise InvalidInput("series", "of one step", [str(one.step) for one in series])
     way = TARGETS[recipe.target]
     pairs = [chronological_split(without_faults(one), recipe.validation) for one in series]
     early, late = ([_found(part, recipe) for part in parts] for parts in zip(*pairs, strict=True))
@@ -124,7 +126,7 @@ def fit(
     weights = rounding(*bits, levels=recipe.levels, gamma=recipe.gamma)
     model = Model(
         recipe.target,
-        steps.pop(),
+        step,
         recipe.history,
         recipe.horizon,
         weights,

@@ -87,12 +87,11 @@ class Examples:
 
         Turning air knows hardly more of left than of right: this doubles what there is to learn.
         """
-        sign = 1.0 - 2.0 * torch.randint(0, 2, (len(self), 1, 1), generator=generator)
-        inputs, truths = (torch.ones(part.shape[-1]) for part in (self.x, self.y))
-        for ones, columns in zip((inputs, truths), mirror, strict=True):
-            ones[list(columns)] = -1.0
-        x = torch.where(sign * inputs.abs() < 0, self.x * inputs, self.x)
-        y = torch.where(sign * truths.abs() < 0, self.y * truths, self.y)
+        exchanged = torch.rand((len(self), 1, 1), generator=generator) < 0.5
+        x, y = self.x.clone(), self.y.clone()
+        for part, columns in zip((x, y), mirror, strict=True):
+            for k in columns:
+                part[..., k] = torch.where(exchanged[..., 0], -part[..., k], part[..., k])
         return Examples(x, y, self.measured)
 
 

@@ -1,0 +1,133 @@
+"""Train the models that come with the package, and write the card of each.
+
+``python -m benchmarks.shipped_models 5 FILE...`` trains on measured 5-minute series, and
+``python -m benchmarks.shipped_models 10`` on the 10-minute series that py_wake, brightwind and
+foxes publish under the MIT licence, which must be installed. The last third of every series is left
+out, and the card says how the model does on it.
+"""
+
+import argparse
+from collections.abc import Sequence
+from datetime import UTC, datetime
+from importlib.resources import files
+from pathlib import Path
+
+import numpy as np
+
+from windopt.domain.wind import WindSeries
+from windopt.forecasting.evaluation import evaluate
+from windopt.forecasting.faults import without_faults
+from windopt.forecasting.lstm import SHIPPED, EdgeForecaster
+from windopt.forecasting.report import report
+from windopt.forecasting.training.fit import Recipe, fit
+from windopt.forecasting.training.loop import Epoch, Schedule
+from windopt.forecasting.windows import chronological_split
+
+MODELS = Path(__file__).parents[1] / "windopt" / "forecasting" / "models"
+TEST = 1 / 3
+RECIPE = Recipe(schedule=Schedule(epochs=16))
+COLUMNS = ("speed_mae", "direction_mae", "speed_pinball", "direction_pinball", "coverage_90")
+
+CARD = """\
+# {file}: the next 40 minutes of wind, every {step} minutes
+
+An LSTM of {units} units with weights of 4 bits; inputs, outputs and quantiles as in
+`windopt.forecasting.targets`. It sees two hours of speed and direction, and nothing of the site.
+
+Trained on the first two thirds of
+
+{data}
+
+of which the last 12 % stopped the training and calibrated the quantiles. On the last thirds, which
+trained nothing (means over the horizon; m/s, and degrees on the circle; persistence, with
+bands of constant width, and linear autoregression fitted to the first two thirds):
+
+| series | method | speed MAE | direction MAE | speed pinball | direction pinball | 90 % covers |
+|---|---|---|---|---|---|---|
+{table}
+
+Made {date} by `{command}`.
+"""
+
+
+def ten_minute_series() -> list[WindSeries]:
+    """Return the series that packages under the MIT licence publish."""
+    return [py_wake_series(), brightwind_series(), built_in_series()]
+
+
+def py_wake_series() -> WindSeries:
+    """Return py_wake's year of 10-minute means; it names neither site nor year."""
+    path = Path(str(files("py_wake") / "examples/data/time_series.npz"))
+    with np.load(path, allow_pickle=False) as arrays:
+        speed, direction = arrays["ws"].astype(float), arrays["wd"].astype(float)
+    time = np.datetime64("2001-01-01T00:00") + np.timedelta64(10, "m") * np.arange(len(speed))
+    return WindSeries(time, speed, np.radians(direction % 360), source="py_wake, time_series.npz")
+
+
+def brightwind_series() -> WindSeries:
+    """Return brightwind's demonstration mast, 80 m."""
+    path = Path(str(files("brightwind") / "demo_datasets/demo_data.csv"))
+    return WindSeries.read(path, time="Timestamp", speed="Spd80mN", direction="Dir78mS")
+
+
+def built_in_series() -> WindSeries:
+    """Return the month of WRF that comes with windopt, from foxes."""
+    return WindSeries.read(Path(str(files("windopt") / "data/wrf-2009-01.csv.gz")))
+
+
+def ship(model: EdgeForecaster, series: Sequence[WindSeries], command: str) -> None:
+    """Write the model and its card."""
+    minutes = int(series[0].step / np.timedelta64(1, "m"))
+    path = MODELS / SHIPPED[minutes]
+    model.save(path)
+    tested = EdgeForecaster.load(path)
+    card = CARD.format(
+        file=path.name,
+        step=minutes,
+        units=tested.model.units if tested.model else 0,
+        data="\n".join(f"- {_described(one)}" for one in series),
+        table="\n".join(row for one in series for row in _rows(tested, one)),
+        date=datetime.now(UTC).date().isoformat(),
+        command=command,
+    )
+    path.with_suffix(".md").write_text(card)
+
+
+def _described(series: WindSeries) -> str:
+    """Name a series with its period, as in a list."""
+    name = Path(series.source).name if "/" in series.source else series.source
+    known = without_faults(series).valid.mean()
+    return f"{name}: {series.time[0]} to {series.time[-1]}, {known:.1%} of {len(series)} rows valid"
+
+
+def _rows(model: EdgeForecaster, series: WindSeries) -> list[str]:
+    """Rows of the card's table."""
+    found = report(evaluate([model], series, test=TEST))
+    name = _described(series).split(":")[0]
+    rows = []
+    for method in found["methods"]:
+        values = ("-" if method[key] is None else f"{method[key]:.3f}" for key in COLUMNS)
+        rows.append(f"| {name} | {method['name']} | {' | '.join(values)} |")
+    return rows
+
+
+def main() -> None:
+    """Train and write."""
+    parser = argparse.ArgumentParser(description="Train the models that come with the package.")
+    parser.add_argument("step", type=int, choices=SHIPPED, help="minutes between two rows")
+    parser.add_argument("files", type=Path, nargs="*", help="measured series of this step")
+    parser.add_argument("--seed", type=int, default=0)
+    chosen = parser.parse_args()
+    series = [WindSeries.read(path) for path in chosen.files] or ten_minute_series()
+
+    def progress(epoch: Epoch) -> None:
+        print(f"{epoch.number:3d}  {epoch.loss:.4f}  {epoch.validation_loss:.4f}", flush=True)
+
+    early = [chronological_split(one, TEST)[0] for one in series]
+    model = EdgeForecaster(fit(RECIPE, early, seed=chosen.seed, progress=progress))
+    names = " ".join(path.name for path in chosen.files)
+    ship(model, series, f"python -m benchmarks.shipped_models {chosen.step} {names}".strip())
+
+
+if __name__ == "__main__":
+    main()
