@@ -1,13 +1,13 @@
 """What quantisation buys on a small machine: bytes and time, one window at a time.
 
-``python -m benchmarks.edge [--out FILE]`` compares, in one process on one thread, torch as it
+``python -m benchmarks.edge [--out FILE.csv]`` compares, in one process on one thread, torch as it
 trains, ONNX Runtime in floats and with dynamic int8, and windopt's NumPy networks, each in several
 bit widths and beside small networks in floating point. Times are minima of many runs: the ratios
 carry over to other machines, the times do not. What is not installed is left out and said so.
 """
 
 import argparse
-import json
+import csv
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -147,15 +147,20 @@ def onnx_graph(weights: Weights) -> bytes:
     return content
 
 
-def in_numpy(weights: Weights) -> Iterator[tuple[str, Run]]:
-    """Yield windopt's networks."""
-    yield "NumPy, floats", FloatNetwork(weights)
+def in_numpy(weights: Weights) -> Iterator[tuple[str, Run, int]]:
+    """Yield windopt's networks and the bytes of their files."""
+    for units in 100, 50, 25, 16:
+        small = random_weights(units)
+        yield f"NumPy, floats, {units} units", FloatNetwork(small), file_size(small, 32)
     for bits in 8, 4, 2:
-        yield f"NumPy, {bits}-bit integers", IntegerNetwork(weights.quantised(bits))
-    sparse = SparseNetwork(weights.quantised(4))
-    yield f"NumPy, 4 bits, {sparse.zeros:.0%} zero codes", sparse
+        integers = IntegerNetwork(weights.quantised(bits))
+        yield f"NumPy, {bits}-bit weights, integers", integers, file_size(weights, bits)
+    sparse = SparseNetwork(weights.quantised(4, gamma=2.5))
+    name = f"NumPy, 4-bit weights, sparse codes, {sparse.zeros:.0%} zeros"
+    yield name, sparse, file_size(weights, 4)
     ternary = SparseNetwork(weights.quantised(2, levels=Levels.ZERO))
-    yield f"NumPy, ternary, {ternary.zeros:.0%} zeros", ternary
+    name = f"NumPy, ternary weights, sparse, {ternary.zeros:.0%} zeros"
+    yield name, ternary, file_size(weights, 2, Levels.ZERO)
 
 
 def fastest(run: Run, x: Single) -> float:
@@ -168,38 +173,35 @@ def fastest(run: Run, x: Single) -> float:
     return 1e6 * shortest
 
 
-def measured() -> dict[str, Any]:
-    """Return times [us] and file sizes [bytes]."""
+def measured() -> Iterator[tuple[str, float | str, int | str]]:
+    """Yield what ran, its time [us], and the size of its model's file [bytes]."""
     weights = random_weights()
     x = np.random.default_rng(1).normal(size=(1, STEPS, ResidualTarget.inputs)).astype(np.float32)
-    times: dict[str, float] = {}
-    missing = []
     expected = FloatNetwork(weights)(x)
-    for kind in in_torch, in_onnx, in_numpy:
+    for kind in in_torch, in_onnx:
         try:
             for name, run in kind(weights):
-                if not name.startswith("NumPy") and "int8" not in name:
+                if "int8" not in name:
                     np.testing.assert_allclose(run(x), expected, atol=1e-4)
-                times[name] = round(fastest(run, x), 1)
+                yield name, fastest(run, x), ""
         except ModuleNotFoundError as absent:
-            missing.append(f"{kind.__name__}: {absent.name} is not installed")
-    for units in 50, 25, 16:
-        small = FloatNetwork(random_weights(units))
-        times[f"NumPy, floats, {units} units"] = round(fastest(small, x), 1)
-    sizes = {f"{bits} bits": file_size(weights, bits) for bits in (32, 16, 8, 4, 2)}
-    sizes |= {f"32 bits, {n} units": file_size(random_weights(n), 32) for n in (50, 25, 16)}
-    return {"microseconds": times, "bytes": sizes, "missing": missing}
+            yield f"{absent.name}: not installed", "", ""
+    for name, run, size in in_numpy(weights):
+        yield name, fastest(run, x), size
 
 
 def main() -> None:
-    """Print the figures as JSON."""
+    """Print the table, and write it."""
     parser = argparse.ArgumentParser(description="Time and size of the network on small machines.")
-    parser.add_argument("--out", type=Path, help="a file for the figures, beside printing them")
+    parser.add_argument("--out", type=Path, help="a CSV file for the table, beside printing it")
     arguments = parser.parse_args()
-    text = json.dumps(measured(), indent=2)
+    rows = [("network", "microseconds", "bytes")]
+    for name, time_taken, size in measured():
+        rows.append((name, f"{time_taken:.0f}" if time_taken else "", str(size)))
+        print("  ".join(rows[-1]), flush=True)
     if arguments.out:
-        arguments.out.write_text(text + "\n")
-    print(text)
+        with arguments.out.open("w", newline="") as file:
+            csv.writer(file, lineterminator="\n").writerows(rows)
 
 
 if __name__ == "__main__":

@@ -6,6 +6,7 @@ import pytest
 from windopt.domain.wind import WindSeries
 from windopt.errors import InvalidInput
 from windopt.forecasting.autoregression import LinearAutoregression
+from windopt.forecasting.conformal_persistence import ConformalPersistence
 from windopt.forecasting.evaluation import backtest
 from windopt.forecasting.persistence import Persistence
 from windopt.forecasting.targets import wrapped
@@ -51,3 +52,11 @@ def test_forecasters_with_different_horizons_are_not_compared():
     short = Persistence(horizon=np.timedelta64(20, "m"))
     with pytest.raises(InvalidInput, match="one horizon"):
         backtest([Persistence(), short], ramp())
+
+
+def test_each_forecaster_sees_as_much_history_as_it_looks_back():
+    short = LinearAutoregression(history=np.timedelta64(30, "m")).fit(ramp(400))
+    long = ConformalPersistence(history=np.timedelta64(3, "h")).fit(ramp(400))
+    table = backtest([short, long], ramp())
+    assert table.windows == 100 - 36 - 8 + 1
+    assert table["linear autoregression"].speed_mae == pytest.approx(np.zeros(8), abs=1e-3)

@@ -13,7 +13,7 @@ from windopt.forecasting.faults import without_faults
 from windopt.forecasting.forecaster import Forecaster
 from windopt.forecasting.persistence import Persistence
 from windopt.forecasting.scores import Score, score
-from windopt.forecasting.windows import Windows, chronological_split, windows
+from windopt.forecasting.windows import Windows, chronological_split, steps_in, windows
 
 
 @dataclass(frozen=True)
@@ -50,19 +50,19 @@ def backtest(forecasters: Sequence[Forecaster], series: WindSeries) -> Backtest:
     Parameters
     ----------
     forecasters
-        All with one history and one horizon. Persistence is added where it is not among them.
+        All with one horizon. Windows have the longest of their histories, and each forecaster
+        sees as much of it as it looks back. Persistence is added where it is not among them.
 
     Raises
     ------
     InvalidInput
-        If their histories or horizons differ, or ``series`` holds no window.
+        If their horizons differ, or ``series`` holds no window.
     """
-    durations = {(f.history, f.horizon) for f in forecasters} or {
-        (Persistence.history, Persistence.horizon)
-    }
-    if len(durations) > 1:
-        raise InvalidInput("forecasters", "of one history and one horizon", sorted(durations))
-    history, horizon = durations.pop()
+    horizons = {f.horizon for f in forecasters} or {Persistence.horizon}
+    if len(horizons) > 1:
+        raise InvalidInput("forecasters", "of one horizon", sorted(map(str, horizons)))
+    horizon = horizons.pop()
+    history = max((f.history for f in forecasters), default=Persistence.history)
     rivals = [f for f in forecasters if f.name != Persistence.name]
     test = windows(series, history=history, horizon=horizon)
     methods: list[Forecaster] = [Persistence(history, horizon), *rivals]
@@ -99,5 +99,6 @@ def evaluate(
 def _score(forecaster: Forecaster, test: Windows) -> Score:
     """Errors of one forecaster over all windows."""
     step = test.series.step
-    cases = ((forecaster.forecast(block.past, step), block) for block in test.blocks())
+    L = steps_in(forecaster.history, step, "history")
+    cases = ((forecaster.forecast(block.past.last(L), step), block) for block in test.blocks())
     return score(forecaster.name, cases, test)

@@ -59,6 +59,10 @@ class Traces:
             [-self.speed * np.sin(self.theta_met), -self.speed * np.cos(self.theta_met)], axis=-1
         )
 
+    def last(self, n: int) -> "Traces":
+        """Return the last ``n`` steps."""
+        return Traces(self.speed[:, -n:], self.theta_met[:, -n:])
+
     def __len__(self) -> int:
         return len(self.speed)
 
