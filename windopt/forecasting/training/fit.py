@@ -139,14 +139,15 @@ def fit(
 def calibrated(model: Model, found: Sequence[Windows]) -> Model:
     """Return ``model`` with its quantiles calibrated on windows that did not train it."""
     network = FloatNetwork(model.float_weights)
+    plain = model.with_calibration(Calibration.none())
 
     def cases() -> Iterator[tuple[Traces, Traces, Traces]]:
         for some in found:
             for block in some.blocks():
                 past = block.past
-                yield model.forecast(network, past), past, block.future
+                yield plain.forecast(network, past), past, block.future
 
-    return model.with_calibration(calibrate(cases()))
+    return plain.with_calibration(calibrate(cases()))
 
 
 def _found(series: WindSeries, recipe: Recipe) -> Windows:
