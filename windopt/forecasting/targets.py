@@ -31,7 +31,7 @@ Single = NDArray[np.float32]
 
 LEVELS = (0.05, 0.25, 0.5, 0.75, 0.95)
 DEVIATION_MIN = 0.05  # m/s; below it anemometers see their own resolution
-SPEED_MIN = 0.5  # m/s; below it a vane hardly turns with the wind
+SPEED_MIN = 0.5  # m/s; about what it takes to turn a vane
 TURN_LIMIT = 0.999 * np.pi
 
 
@@ -76,7 +76,8 @@ def wrapped(angle: Floats) -> Floats:
 def _in_frame(traces: Traces, past: Traces) -> tuple[Floats, Floats, Floats]:
     """Velocity along and across the last direction [m/s], and the turn from it [rad]."""
     turn = wrapped(traces.theta_met - past.theta_met[:, -1:])
-    return traces.speed * np.cos(turn), traces.speed * np.sin(turn), turn
+    speed = traces.speed + SPEED_MIN
+    return speed * np.cos(turn), speed * np.sin(turn), turn
 
 
 def deviation(past: Traces) -> Floats:
@@ -89,7 +90,11 @@ def deviation(past: Traces) -> Floats:
 
 @dataclass(frozen=True)
 class ResidualTarget:
-    """Residuals on persistence in a frame that turns with the wind."""
+    """Residuals on persistence in a frame that turns with the wind.
+
+    Velocities are those of a wind stronger by ``SPEED_MIN``, so that the turns of a vane in a calm
+    do not count as much as they are wide.
+    """
 
     name: str = "residual"
     inputs: int = 5
@@ -103,21 +108,22 @@ class ResidualTarget:
         s, d = past.speed[:, -1:], deviation(past)
         level = np.broadcast_to(np.log1p(s), a.shape)
         spread = np.broadcast_to(np.log(d), a.shape)
-        x = np.stack([(a - s) / d, c / d, (past.speed - s) / d, level, spread], axis=-1)
+        x = np.stack([(a - a[:, -1:]) / d, c / d, (past.speed - s) / d, level, spread], axis=-1)
         return x.astype(np.float32)
 
     def truth(self, past: Traces, future: Traces) -> Single:
         """Return the residuals of velocity, of speed and of direction, shape ``(B, H, 4)``."""
         a, c, turn = _in_frame(future, past)
         s, d = past.speed[:, -1:], deviation(past)
-        y = np.stack([(a - s) / d, c / d, (future.speed - s) / d, turn * (s + SPEED_MIN) / d], -1)
+        last = s + SPEED_MIN
+        y = np.stack([(a - last) / d, c / d, (future.speed - s) / d, turn * last / d], axis=-1)
         return y.astype(np.float32)
 
     def decode(self, outputs: Single, past: Traces) -> Traces:
         """Return direction from the velocity, speed from its median, and both with quantiles."""
         y = outputs.astype(float)
         s, d = past.speed[:, -1:], deviation(past)
-        theta = np.arctan2(d * y[..., 1], s + d * y[..., 0])
+        theta = np.arctan2(d * y[..., 1], s + SPEED_MIN + d * y[..., 0])
         speed = np.sort(np.maximum(s[..., None] + d[..., None] * y[..., 2:7], 0.0), axis=-1)
         bounds = (d / (s + SPEED_MIN))[..., None] * y[..., 7:] - theta[..., None]
         low, high = (

@@ -14,7 +14,11 @@ from windopt.forecasting.lstm import EdgeForecaster, WindForecaster
 from windopt.forecasting.training.fit import Recipe, fit
 from windopt.forecasting.training.loop import Schedule
 
-QUICK = Recipe(units=12, schedule=Schedule(epochs=8, batch=64, rate=2e-2))
+QUICK = Recipe(
+    units=12,
+    schedule=Schedule(epochs=5, batch=64, rate=2e-2),
+    refinement=Schedule(epochs=3, batch=64, rate=1e-2),
+)
 
 
 def swinging(n=3000, seed=0, step=5):
@@ -65,20 +69,24 @@ def test_the_same_seed_trains_the_same_model(trained):
     )
 
 
-def test_a_training_that_was_interrupted_ends_where_it_would_have(trained, tmp_path):
+@pytest.mark.parametrize("stop_after", [2, 6])
+def test_a_training_that_was_interrupted_ends_where_it_would_have(trained, tmp_path, stop_after):
     class StoppedError(Exception):
         pass
 
     def stop(epoch):
-        if epoch.number == 2:
+        seen.append(epoch.number)
+        if len(seen) == stop_after:
             raise StoppedError
 
+    seen: list[int] = []
     checkpoint = tmp_path / "training.pt"
     with pytest.raises(StoppedError):
         fit(QUICK, [swinging()], progress=stop, checkpoint=checkpoint)
-    seen = []
-    resumed = fit(QUICK, [swinging()], progress=seen.append, checkpoint=checkpoint)
-    assert [epoch.number for epoch in seen] == [3, 4, 5, 6, 7, 8]
+    resumed = fit(
+        QUICK, [swinging()], progress=lambda epoch: seen.append(epoch.number), checkpoint=checkpoint
+    )
+    assert seen == [1, 2, 3, 4, 5, 1, 2, 3]
     assert EdgeForecaster(resumed).predict(swinging()).speed == pytest.approx(
         trained.predict(swinging()).speed
     )
@@ -89,8 +97,9 @@ def test_training_stops_when_it_no_longer_helps():
     noise = swinging(400)
     noise.speed[:] = np.random.default_rng(0).uniform(1, 9, 400)
     schedule = Schedule(epochs=40, patience=2, batch=64, rate=0.1)
-    fit(replace(QUICK, schedule=schedule), [noise], progress=seen.append)
-    assert len(seen) < 40
+    recipe = replace(QUICK, schedule=schedule, refinement=schedule)
+    fit(recipe, [noise], progress=seen.append)
+    assert len(seen) < 80
     assert not any(epoch.best for epoch in seen[-2:])
 
 
@@ -102,7 +111,8 @@ def test_several_series_train_one_model():
 @pytest.mark.parametrize("target", ["residual", "raw"])
 @pytest.mark.parametrize("bits", [2, 32])
 def test_every_target_trains_at_every_width(target, bits):
-    recipe = replace(QUICK, target=target, bits=bits, schedule=Schedule(epochs=1))
+    once = Schedule(epochs=1)
+    recipe = replace(QUICK, target=target, bits=bits, schedule=once, refinement=once)
     model = EdgeForecaster(fit(recipe, [swinging(600, step=10)]))
     assert len(model.predict(swinging(60, step=10))) == 4
     assert backtest([model], swinging(200, step=10)).windows > 0

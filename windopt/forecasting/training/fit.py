@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -50,6 +51,9 @@ class Recipe:
         little that is new.
     validation
         The last fraction of each series, kept for early stopping and calibration.
+    schedule, refinement
+        Of training in floating point, and of going on with the weights on their levels: rounding
+        from the start slows learning down.
     """
 
     history: np.timedelta64 = HISTORY
@@ -62,7 +66,8 @@ class Recipe:
     gamma: float = 8.0
     stride: int = 2
     validation: float = 0.12
-    schedule: Schedule = field(default_factory=Schedule)
+    schedule: Schedule = field(default_factory=lambda: Schedule(epochs=10))
+    refinement: Schedule = field(default_factory=lambda: Schedule(epochs=6, rate=1.5e-3))
 
     def __post_init__(self) -> None:
         if self.target not in TARGETS:
@@ -109,18 +114,20 @@ def fit(
         recipe.levels,
         recipe.gamma,
     )
-    raw = train(
-        shape,
-        examples,
-        validation,
-        _loss(way, spread),
+    phase = partial(
+        train,
+        examples=examples,
+        validation=validation,
+        loss=_loss(way, spread),
         scale=torch.from_numpy(scaling.outputs),
         mirror=way.mirror,
-        schedule=recipe.schedule,
         seed=seed,
         progress=progress,
-        checkpoint=checkpoint,
     )
+    first = checkpoint and checkpoint.with_suffix(".first")
+    floats = replace(shape, bits=FLOAT, output_bits=FLOAT)
+    start = phase(floats, schedule=recipe.schedule, checkpoint=first)
+    raw = phase(shape, schedule=recipe.refinement, checkpoint=checkpoint, start=start)
     bits = (shape.bits, shape.output_bits)
     rounding = raw.rounded if FLOAT in bits else raw.quantised
     weights = rounding(*bits, levels=recipe.levels, gamma=recipe.gamma)

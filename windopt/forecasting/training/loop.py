@@ -105,6 +105,7 @@ def train(
     mirror: Mirror = ((), ()),
     schedule: Schedule,
     seed: int,
+    start: Weights | None = None,
     progress: Callable[[Epoch], None] | None = None,
     checkpoint: Path | None = None,
 ) -> Weights:
@@ -116,6 +117,8 @@ def train(
         What the network's outputs count, shape ``(H, k)``.
     mirror
         Inputs and truths that change sign when left and right are exchanged.
+    start
+        Weights to begin with; random ones if left out.
     progress
         Called after each epoch.
     checkpoint
@@ -123,6 +126,8 @@ def train(
     """
     torch.manual_seed(seed)
     module = LstmModule(shape)
+    if start is not None:
+        module.begin_with(start)
     steps = max(1, len(examples) // schedule.batch)
     optimiser = torch.optim.Adam([p for p in module.parameters() if p.requires_grad])
     rate = torch.optim.lr_scheduler.OneCycleLR(

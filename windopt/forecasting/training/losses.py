@@ -41,7 +41,7 @@ def residual_loss(scale: Tensor) -> Loss:
 
     def loss(outputs: Tensor, truth: Tensor, inputs: Tensor) -> Tensor:
         s, d = torch.expm1(inputs[:, -1:, 3]), torch.exp(inputs[:, -1:, 4])
-        theta = torch.atan2(d * outputs[..., 1], s + d * outputs[..., 0] + 1e-6)
+        theta = torch.atan2(d * outputs[..., 1], s + SPEED_MIN + d * outputs[..., 0])
         turn = truth[..., 3] * d / (s + SPEED_MIN)
         off = torch.remainder(theta - turn + torch.pi, 2 * torch.pi) - torch.pi
         velocity = ((outputs[..., :2] - truth[..., :2]) / scale[:, :2]).abs().mean()

@@ -63,12 +63,23 @@ class LstmModule(nn.Module):
             y: Tensor = self.output(states[:, -1])
         return y
 
+    def begin_with(self, weights: Weights) -> None:
+        """Take over ``weights`` as the ones before quantisation."""
+        values = {
+            "lstm.weight_ih_l0": weights.W,
+            "lstm.weight_hh_l0": weights.U,
+            "lstm.bias_ih_l0": weights.b,
+            "output.weight": weights.W_y,
+            "output.bias": weights.b_y,
+        }
+        with torch.no_grad():
+            for name, parameter in self.named_parameters():
+                if _plain(name) in values:
+                    parameter.copy_(torch.from_numpy(values[_plain(name)]))
+
     def raw_weights(self) -> Weights:
         """Return the weights before quantisation; torch stacks the gates in the same order."""
-        arrays = {
-            name.replace("parametrizations.", "").replace(".original", ""): value.numpy().copy()
-            for name, value in self.state_dict().items()
-        }
+        arrays = {_plain(name): value.numpy().copy() for name, value in self.state_dict().items()}
         return Weights(
             arrays["lstm.weight_ih_l0"],
             arrays["lstm.weight_hh_l0"],
@@ -76,3 +87,8 @@ class LstmModule(nn.Module):
             arrays["output.weight"],
             arrays["output.bias"],
         )
+
+
+def _plain(name: str) -> str:
+    """Name of a parameter as it is without parametrisation."""
+    return name.replace("parametrizations.", "").replace(".original", "")
