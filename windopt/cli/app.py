@@ -7,6 +7,7 @@ import typer
 import windopt
 from windopt.cli.check import check
 from windopt.cli.demo import demo
+from windopt.cli.forecast import app as forecast
 from windopt.cli.inspect import inspect
 from windopt.cli.plan import plan
 from windopt.cli.yaw import yaw
@@ -19,6 +20,7 @@ app = typer.Typer(
 )
 for command in demo, plan, inspect, yaw, check:
     app.command()(command)
+app.add_typer(forecast, name="forecast", help="Train, ask and score forecasters of the wind.")
 
 
 def _print_version(wanted: bool) -> None:

@@ -1,4 +1,4 @@
-"""``windopt forecast``: train a quantised LSTM, ask it what comes, and score it beside baselines."""
+"""``windopt forecast``: train a quantised LSTM, ask it, and score it beside baselines."""
 
 import json as json_text
 from collections.abc import Callable, Iterator
@@ -15,7 +15,7 @@ from windopt.cli import options as opt
 from windopt.cli.terminal import err, note, out, say
 from windopt.cli.times import parsed
 from windopt.domain.wind import WindForecast, WindSeries
-from windopt.errors import InvalidInput
+from windopt.errors import InvalidInput, MissingExtra
 from windopt.forecasting.evaluation import evaluate as score
 from windopt.forecasting.lstm import EdgeForecaster, WindForecaster
 from windopt.forecasting.report import report
@@ -38,9 +38,7 @@ ModelFile = Annotated[
 Bits = Annotated[int, typer.Option(help="Bits of a weight: 32, 16, 8, 4 or 2.")]
 OutputBits = Annotated[int | None, typer.Option(help="Bits of the output layer; as --bits.")]
 Units = Annotated[int, typer.Option(min=1, help="Hidden units.")]
-TargetName = Annotated[
-    str, typer.Option(help="residual on persistence, or raw as in the paper.")
-]
+TargetName = Annotated[str, typer.Option(help="residual on persistence, or raw as in the paper.")]
 Epochs = Annotated[int, typer.Option(min=1, help="Passes over the training windows at most.")]
 Holdout = Annotated[
     float, typer.Option(min=0, max=0.9, help="Last fraction that trains nothing, for evaluate.")
@@ -108,13 +106,12 @@ def predict(
     note((*measured.notes, *forecast.notes))
     table = Table("time", "m/s", "90 % within", "deg", "90 % within", title=forecast.method)
     for step in _record(forecast)["steps"]:
-        (low, *_, high), (left, *_, right) = step["speed_quantiles"], step["direction_quantiles"]
         table.add_row(
             step["time"],
             f"{step['wind_speed']:.2f}",
-            f"{low:.2f} to {high:.2f}",
+            _band(step, "speed_quantiles", 2),
             f"{step['wind_direction']:.1f}",
-            f"{left:.1f} to {right:.1f}",
+            _band(step, "direction_quantiles", 1),
         )
     out.print(table)
 
@@ -147,6 +144,14 @@ def evaluate(
     out.print(table)
 
 
+def _band(step: dict[str, Any], quantiles: str, decimals: int) -> str:
+    """Print the outermost quantiles of a step, where the model gives them."""
+    if quantiles not in step:
+        return "-"
+    low, *_, high = step[quantiles]
+    return f"{low:.{decimals}f} to {high:.{decimals}f}"
+
+
 COLUMNS = (
     ("speed MAE (m/s)", "speed_mae"),
     ("RMSE", "speed_rmse"),
@@ -166,9 +171,7 @@ def _model(name: str, series: WindSeries) -> EdgeForecaster:
     return EdgeForecaster.load(name)
 
 
-def _recipe(
-    *, bits: int, output_bits: int | None, units: int, target: str, epochs: int
-) -> Any:
+def _recipe(*, bits: int, output_bits: int | None, units: int, target: str, epochs: int) -> Any:
     """Return what to train; importing it needs torch."""
     try:
         from windopt.forecasting.training.fit import Recipe

@@ -28,10 +28,17 @@ Stations = Annotated[
         "By default the farm's own, or as few as reach every turbine in 10 m/s from anywhere.",
     ),
 ]
+Time = Annotated[
+    str | None,
+    typer.Option(metavar="ISO", help="On the series' own clock; by default its last row."),
+]
+Column = Annotated[str, typer.Option(help="Name of the column; recognised by default.")]
 Dwell = Annotated[float, typer.Option(help="Time spent at each turbine [s].")]
 RoutingMethod = Annotated[str, typer.Option(help=f"One of {', '.join(METHODS)}.")]
 YawMethod = Annotated[str, typer.Option(help=f"One of {', '.join(YAW_METHODS)}.")]
-ForecasterName = Annotated[str, typer.Option(help=f"One of {', '.join(FORECASTERS)}.")]
+ForecasterName = Annotated[
+    str, typer.Option(help=f"One of {', '.join(FORECASTERS)}, or the file of a trained model.")
+]
 Rule = Annotated[
     str, typer.Option(help="How the wind bends the ground speed: exact, or as in the paper.")
 ]

@@ -3,7 +3,6 @@
 from pathlib import Path
 from typing import Annotated
 
-import numpy as np
 import typer
 
 from windopt.cli import options as opt
@@ -12,31 +11,25 @@ from windopt.cli.fleets import fleet
 from windopt.cli.inspect import FALCON_8
 from windopt.cli.outcome import exit_code, print_record
 from windopt.cli.terminal import note, progress, show_plan
+from windopt.cli.times import parsed
 from windopt.domain.farm import Farm
 from windopt.domain.fleet import Uav
 from windopt.domain.wind import WindSeries
-from windopt.errors import InvalidInput
 from windopt.planning.inspection import DEFAULT_METHOD
+from windopt.planning.plan import DEFAULT_FORECASTER
 from windopt.planning.plan import plan as make_plan
 
 WindFile = Annotated[
     Path, typer.Option("--wind", help="CSV file with time, speed and direction, or WIND Toolkit's.")
 ]
-Time = Annotated[
-    str | None,
-    typer.Option(
-        metavar="ISO", help="When to plan, on the series' clock; by default at its last row."
-    ),
-]
-Column = Annotated[str, typer.Option(help="Name of the column; recognised by default.")]
 
 
 def plan(
     farm: opt.FarmName,
     wind: WindFile,
-    time: Time = None,
+    time: opt.Time = None,
     stations: opt.Stations = "",
-    forecaster: opt.ForecasterName = "autoregression",
+    forecaster: opt.ForecasterName = DEFAULT_FORECASTER,
     yaw_method: opt.YawMethod = "nlp",
     method: opt.RoutingMethod = DEFAULT_METHOD,
     dwell: opt.Dwell = 0.0,
@@ -45,9 +38,9 @@ def plan(
     t_max: opt.FlightTime = FALCON_8.t_max,
     wind_max: opt.WindMax = FALCON_8.wind_max,
     ground_speed_cap: opt.GroundSpeedCap = FALCON_8.ground_speed_cap,
-    time_column: Column = "",
-    speed_column: Column = "",
-    direction_column: Column = "",
+    time_column: opt.Column = "",
+    speed_column: opt.Column = "",
+    direction_column: opt.Column = "",
     gap: opt.Gap = 0.0,
     time_limit: opt.TimeLimit = 60.0,
     seed: opt.Seed = 0,
@@ -66,7 +59,7 @@ def plan(
             site,
             based,
             series,
-            time=_parsed(time),
+            time=parsed(time),
             forecaster=forecaster,
             yaw_method=yaw_method,
             method=method,
@@ -84,12 +77,3 @@ def plan(
     if out is not None:
         write_folder(made, out, force=force, series=series)
     raise typer.Exit(exit_code(made.inspection))
-
-
-def _parsed(time: str | None) -> np.datetime64 | None:
-    if time is None:
-        return None
-    try:
-        return np.datetime64(time, "s")
-    except ValueError:
-        raise InvalidInput("--time", "like 2011-04-13T22:00", repr(time)) from None

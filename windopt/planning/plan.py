@@ -11,6 +11,7 @@ from windopt.domain.wind import WindForecast, WindSeries
 from windopt.errors import InvalidInput
 from windopt.forecasting.autoregression import LinearAutoregression
 from windopt.forecasting.forecaster import Forecaster
+from windopt.forecasting.lstm import EdgeForecaster
 from windopt.forecasting.persistence import Persistence
 from windopt.planning.inspection import DEFAULT_METHOD, plan_inspection
 from windopt.planning.routing_methods import Progress
@@ -18,10 +19,13 @@ from windopt.planning.yaw import plan_yaw
 from windopt.result import Result
 
 FORECASTERS: dict[str, Callable[[], Forecaster]] = {
+    "lstm": EdgeForecaster,
     "autoregression": LinearAutoregression,
     "persistence": Persistence,
 }
 """Forecasters by the name they are chosen by."""
+
+DEFAULT_FORECASTER = "lstm"
 
 
 def plan(
@@ -30,7 +34,7 @@ def plan(
     series: WindSeries,
     *,
     time: np.datetime64 | None = None,
-    forecaster: Forecaster | str = "autoregression",
+    forecaster: Forecaster | str = DEFAULT_FORECASTER,
     yaw_method: str = "nlp",
     method: str = DEFAULT_METHOD,
     dwell: float | Sequence[float] = 0.0,
@@ -49,8 +53,9 @@ def plan(
     time
         When the plan is made, on the series' own clock; its last row unless given.
     forecaster
-        One of :data:`FORECASTERS`, fitted to the series up to ``time``, or a forecaster of
-        your own, taken as it is.
+        One of :data:`FORECASTERS`, fitted to the series up to ``time``; or the file of a trained
+        model; or a forecaster of your own, taken as it is. The LSTM that comes with windopt is
+        for series of 5 and 10 minutes.
     yaw_method, method
         Methods for set-points and for flights.
     dwell, rule, gap, time_limit, seed, progress
@@ -89,9 +94,12 @@ def plan(
 def _fitted(forecaster: Forecaster | str, known: WindSeries) -> Forecaster:
     if not isinstance(forecaster, str):
         return forecaster
+    if forecaster.endswith(".npz"):
+        return EdgeForecaster.load(forecaster)
     if forecaster not in FORECASTERS:
         names = ", ".join(FORECASTERS)
-        raise InvalidInput("forecaster", f"to be one of {names}", repr(forecaster))
+        expected = f"to be one of {names}, or a model's .npz file"
+        raise InvalidInput("forecaster", expected, repr(forecaster))
     return FORECASTERS[forecaster]().fit(known)
 
 

@@ -1,0 +1,106 @@
+"""``windopt forecast`` as a user meets it."""
+
+import json
+import sys
+
+import numpy as np
+import pytest
+
+from windopt.cli import main
+from windopt.io.built_in import DATA
+
+MONTH = DATA / "wrf-2009-01.csv.gz"
+
+
+@pytest.fixture
+def windopt(monkeypatch, capsys, tmp_path):
+    """Run a command and return its exit code, output and complaints."""
+    monkeypatch.chdir(tmp_path)
+
+    def run(*words):
+        monkeypatch.setattr(sys, "argv", ["windopt", *map(str, words)])
+        with pytest.raises(SystemExit) as stop:
+            main()
+        told = capsys.readouterr()
+        return stop.value.code or 0, told.out, told.err
+
+    return run
+
+
+def test_the_shipped_model_is_scored_beside_its_baselines(windopt):
+    code, out, _ = windopt("forecast", "evaluate", "shipped", MONTH, "--json")
+    table = json.loads(out)
+    assert code == 0
+    assert table["step_minutes"] == 10
+    methods = {method["name"]: method for method in table["methods"]}
+    assert {"persistence", "linear autoregression", "conformal persistence", "lstm"} == set(methods)
+    assert methods["lstm"]["speed_mae"] < methods["persistence"]["speed_mae"]
+    assert len(methods["lstm"]["by_horizon"]) == 4
+    assert 0.5 < methods["lstm"]["coverage_90"] <= 1
+
+
+def test_a_forecast_is_printed_with_its_bands(windopt):
+    at = "--time", "2009-01-10T14:00"
+    code, out, _ = windopt("forecast", "predict", "shipped", MONTH, *at, "--json")
+    forecast = json.loads(out)
+    assert code == 0
+    assert forecast["issued"].startswith("2009-01-10T14:00")
+    for step in forecast["steps"]:
+        assert sorted(step["speed_quantiles"]) == step["speed_quantiles"]
+    code, out, _ = windopt("forecast", "predict", "shipped", MONTH, *at)
+    assert code == 0
+    assert "lstm" in out
+
+
+def test_a_plan_can_use_a_model_of_ones_own(windopt, tmp_path):
+    pytest.importorskip("torch")
+    train = "forecast", "train", MONTH, "--units", "4", "--epochs", "1", "--out", "own.npz"
+    assert windopt(*train)[0] == 0
+    assert windopt(*train)[0] == 2
+    command = "plan", "Walney", "--wind", MONTH, "--time", "2009-01-10T14:00"
+    code, _, err = windopt(*command, "--forecaster", "own.npz", "--out", "out")
+    assert code == 0, err
+    assert windopt("check", "out/plan.json")[0] == 0
+
+
+def series(path, rows, speed="8.0", direction="90"):
+    time = np.datetime64("2020-01-01T00:00") + np.arange(rows) * np.timedelta64(10, "m")
+    path.write_text("time,speed,direction\n" + "".join(f"{t},{speed},{direction}\n" for t in time))
+    return path
+
+
+@pytest.mark.parametrize("rows", [3, 10])
+def test_a_series_too_short_is_refused(windopt, tmp_path, rows):
+    short = series(tmp_path / "short.csv", rows)
+    for command in (("evaluate", "shipped"), ("predict", "shipped"), ("train", "--out", "m.npz")):
+        code, out, err = windopt("forecast", *command, short)
+        assert code == 2
+        assert "Expected" in err
+        assert "Traceback" not in out + err
+
+
+def test_a_series_of_nothing_is_refused(windopt, tmp_path):
+    empty = series(tmp_path / "empty.csv", 500, speed="nan", direction="nan")
+    assert windopt("forecast", "evaluate", "shipped", empty)[0] == 2
+
+
+def test_a_vane_that_is_stuck_for_months_is_reported(windopt, tmp_path):
+    rng = np.random.default_rng(0)
+    time = np.datetime64("2020-01-01T00:00") + np.arange(20_000) * np.timedelta64(10, "m")
+    speed = 8 + rng.normal(0, 1, len(time))
+    direction = np.where(np.arange(len(time)) < 2000, rng.uniform(0, 360, len(time)), 77.0)
+    path = tmp_path / "stuck.csv"
+    rows = (f"{t},{s:.3f},{d:.2f}\n" for t, s, d in zip(time, speed, direction, strict=True))
+    path.write_text("time,speed,direction\n" + "".join(rows))
+    code, out, err = windopt("forecast", "evaluate", "shipped", path)
+    assert code == 2
+    assert "Traceback" not in out + err
+
+
+@pytest.mark.parametrize("content", [b"", b"PK\x03\x04 cut", b"\x80\x04\x95 pickled"])
+def test_a_file_that_is_no_model_is_refused(windopt, tmp_path, content):
+    (tmp_path / "bad.npz").write_bytes(content)
+    code, out, err = windopt("forecast", "evaluate", "bad.npz", MONTH)
+    assert code == 2
+    assert "bad.npz" in err
+    assert "Traceback" not in out + err
