@@ -153,15 +153,13 @@ def _band(step: dict[str, Any], quantiles: str, decimals: int) -> str:
 
 
 COLUMNS = (
-    ("speed MAE (m/s)", "speed_mae"),
-    ("RMSE", "speed_rmse"),
-    ("skill", "speed_skill"),
-    ("direction MAE (deg)", "direction_mae"),
-    ("RMSE", "direction_rmse"),
-    ("skill", "direction_skill"),
-    ("speed pinball", "speed_pinball"),
-    ("direction pinball", "direction_pinball"),
-    ("90 % covers", "coverage_90"),
+    ("speed MAE\nm/s", "speed_mae"),
+    ("skill\n-", "speed_skill"),
+    ("direction\ndeg", "direction_mae"),
+    ("skill\n-", "direction_skill"),
+    ("pinball\nm/s", "speed_pinball"),
+    ("pinball\ndeg", "direction_pinball"),
+    ("90 %\ncovers", "coverage_90"),
 )
 
 
