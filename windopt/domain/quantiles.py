@@ -78,5 +78,5 @@ def _quantile(x: Floats, nodes: Floats, values: Floats) -> Floats:
     """Quantile function at ``x`` standard deviations, given ``values`` at ``nodes``."""
     slope = np.diff(values) / np.diff(nodes)
     below, above = np.minimum(x - nodes[0], 0.0), np.maximum(x - nodes[-1], 0.0)
-    inside: Floats = np.interp(x, nodes, values)
-    return inside + below * slope[0] + above * slope[-1]
+    at: Floats = np.interp(x, nodes, values) + below * slope[0] + above * slope[-1]
+    return at

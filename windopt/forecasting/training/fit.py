@@ -13,7 +13,7 @@ from windopt.errors import InvalidInput
 from windopt.forecasting.calibration import Calibration, calibrate
 from windopt.forecasting.faults import without_faults
 from windopt.forecasting.model import Model, Scaling
-from windopt.forecasting.network import FloatNetwork
+from windopt.forecasting.network import FloatNetwork, QuantisedWeights, Weights
 from windopt.forecasting.quantisation import FLOAT, Levels
 from windopt.forecasting.targets import TARGETS, ResidualTarget, Target
 from windopt.forecasting.training.loop import Epoch, Examples, Schedule, train
@@ -104,34 +104,18 @@ def fit(
     early, late = ([_found(part, recipe) for part in parts] for parts in zip(*pairs, strict=True))
     early = [replace(some, start=some.start[:: recipe.stride]) for some in early]
     scaling, spread = _scaling(way, early)
-    examples, validation = (_examples(way, part, scaling) for part in (early, late))
-    shape = Shape(
-        way.inputs,
-        scaling.outputs.size,
-        recipe.units,
-        recipe.bits,
-        recipe.output_bits or recipe.bits,
-        recipe.levels,
-        recipe.gamma,
-    )
-    phase = partial(
+    learn = partial(
         train,
-        examples=examples,
-        validation=validation,
+        examples=_examples(way, early, scaling),
+        validation=_examples(way, late, scaling),
         loss=_loss(way, spread),
         scale=torch.from_numpy(scaling.outputs),
         mirror=way.mirror,
         seed=seed,
         progress=progress,
     )
-    first = checkpoint and checkpoint.with_suffix(".first")
-    floats = replace(shape, bits=FLOAT, output_bits=FLOAT)
-    start = phase(floats, schedule=recipe.schedule, checkpoint=first)
-    raw = phase(shape, schedule=recipe.refinement, checkpoint=checkpoint, start=start)
-    bits = (shape.bits, shape.output_bits)
-    rounding = raw.rounded if FLOAT in bits else raw.quantised
-    weights = rounding(*bits, levels=recipe.levels, gamma=recipe.gamma)
-    model = Model(
+    weights = _in_two_phases(recipe, _shape(recipe, scaling), learn, checkpoint)
+    uncalibrated = Model(
         recipe.target,
         step,
         recipe.history,
@@ -140,7 +124,32 @@ def fit(
         scaling,
         Calibration.none(),
     )
-    return calibrated(model, late)
+    return calibrated(uncalibrated, late)
+
+
+def _in_two_phases(
+    recipe: Recipe, shape: Shape, learn: Callable[..., Weights], checkpoint: Path | None
+) -> Weights | QuantisedWeights:
+    """Train in floating point, go on with the weights on their levels, and keep them there."""
+    floats = replace(shape, bits=FLOAT, output_bits=FLOAT)
+    first = checkpoint and checkpoint.with_suffix(".first")
+    start = learn(floats, schedule=recipe.schedule, checkpoint=first)
+    raw = learn(shape, schedule=recipe.refinement, checkpoint=checkpoint, start=start)
+    bits = (shape.bits, shape.output_bits)
+    rounding = raw.rounded if FLOAT in bits else raw.quantised
+    return rounding(*bits, levels=recipe.levels, gamma=recipe.gamma)
+
+
+def _shape(recipe: Recipe, scaling: Scaling) -> Shape:
+    return Shape(
+        len(scaling.mean),
+        scaling.outputs.size,
+        recipe.units,
+        recipe.bits,
+        recipe.output_bits or recipe.bits,
+        recipe.levels,
+        recipe.gamma,
+    )
 
 
 def calibrated(model: Model, found: Sequence[Windows]) -> Model:

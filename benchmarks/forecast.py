@@ -1,0 +1,124 @@
+"""The paper's two tables of forecast errors, on another series, with persistence beside them.
+
+``python -m benchmarks.forecast FILE [--bits 32 4] [--seeds 0 1 2] [--out FILE.csv]`` trains on the
+first two thirds of a 5- or 10-minute series and scores the last third. The paper's data set is not
+public; the series is another, so the figures stand beside the paper's and do not reproduce them.
+
+The first table compares bit widths, of our target and of the paper's own, and small networks in
+floating point. The second compares forecasts from every step with forecasts from one-hour means,
+on the same truth.
+"""
+
+import argparse
+import csv
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from windopt.domain.wind import WindSeries
+from windopt.forecasting.autoregression import LinearAutoregression
+from windopt.forecasting.evaluation import Backtest, backtest, evaluate
+from windopt.forecasting.faults import without_faults
+from windopt.forecasting.forecaster import Forecaster
+from windopt.forecasting.hour_ahead import HOUR, HourAhead
+from windopt.forecasting.lstm import EdgeForecaster
+from windopt.forecasting.model_file import dumps
+from windopt.forecasting.persistence import Persistence
+from windopt.forecasting.report import report
+from windopt.forecasting.training.fit import Recipe, fit
+from windopt.forecasting.windows import chronological_split
+
+PAPER = {
+    "32 bits": (0.0403, 0.0573, 0.0596, 0.1151),
+    "16 bits": (0.0396, 0.0554, 0.0609, 0.1192),
+    "8 bits": (0.0392, 0.0579, 0.0608, 0.1191),
+    "4 bits": (0.0401, 0.0571, 0.0598, 0.1183),
+    "2 bits": (0.0431, 0.0614, 0.0807, 0.1308),
+    "hour ahead": (0.0719, 0.0972, 0.1051, 0.1687),
+}  # speed MAE and RMSE, direction MAE and RMSE, all normalised
+HEADER = (
+    "method",
+    "seed",
+    "speed MAE m/s",
+    "direction MAE deg",
+    "speed MAE normalised",
+    "speed RMSE normalised",
+    "direction MAE normalised",
+    "direction RMSE normalised",
+    "bytes",
+)
+Row = tuple[Any, ...]
+
+
+def rows(table: Backtest, seed: int | str = "", size: int | str = "") -> Iterator[Row]:
+    """Yield a row for each method of a backtest but those without a seed, if a seed is given."""
+    methods = report(table)["methods"]
+    for method in methods[-1:] if seed != "" else methods:
+        paper = method["normalised"]
+        figures = [
+            method["speed_mae"],
+            method["direction_mae"],
+            *(
+                paper[f"{what}_{error}"]
+                for what in ("speed", "direction")
+                for error in ("mae", "rmse")
+            ),
+        ]
+        yield (method["name"], seed, *(f"{figure:.4f}" for figure in figures), size)
+
+
+def recipes(bits: list[int]) -> Iterator[tuple[str, Recipe]]:
+    """Yield what is compared in the first table."""
+    for width in bits:
+        yield f"lstm, {width} bits", Recipe(bits=width)
+        yield f"lstm, the paper's target, {width} bits", Recipe(bits=width, target="raw")
+    for units in 50, 25, 16:
+        yield f"lstm, {units} units, 32 bits", Recipe(bits=32, units=units)
+
+
+def by_bits(series: WindSeries, bits: list[int], seeds: list[int]) -> Iterator[Row]:
+    """Yield the rows of the first table."""
+    before, after = chronological_split(without_faults(series), 1 / 3)
+    yield from rows(evaluate([], series, test=1 / 3))
+    for name, recipe in recipes(bits):
+        for seed in seeds:
+            model = fit(recipe, [before], seed=seed)
+            table = backtest([replace(EdgeForecaster(model), name=name)], after)
+            yield from rows(table, seed, len(dumps(model)))
+
+
+def by_source(series: WindSeries) -> Iterator[Row]:
+    """Yield the rows of the second table: linear in each, so that only the source differs."""
+    before, after = chronological_split(without_faults(series), 1 / 3)
+    hourly: list[Forecaster] = [
+        HourAhead(Persistence(2 * HOUR, HOUR)),
+        HourAhead(LinearAutoregression(12 * HOUR, HOUR)),
+    ]
+    fitted = [one.fit(before) for one in hourly]
+    yield from rows(backtest([*fitted, LinearAutoregression().fit(before)], after))
+
+
+def main() -> None:
+    """Print the tables, and write them."""
+    parser = argparse.ArgumentParser(description="Errors by bit width and by source of the wind.")
+    parser.add_argument("file", type=Path, help="a measured series")
+    parser.add_argument("--bits", type=int, nargs="+", default=[32, 16, 8, 4, 2])
+    parser.add_argument("--seeds", type=int, nargs="+", default=[0])
+    parser.add_argument("--out", type=Path, help="a CSV file for the tables, beside printing them")
+    chosen = parser.parse_args()
+    series = WindSeries.read(chosen.file)
+    found: list[Row] = [HEADER]
+    for name, figures in PAPER.items():
+        found.append((f"the paper's data: {name}", "", "", "", *figures, ""))
+    for table in by_bits(series, chosen.bits, chosen.seeds), by_source(series):
+        for row in table:
+            found.append(row)
+            print("  ".join(map(str, row)), flush=True)
+    if chosen.out:
+        with chosen.out.open("w", newline="") as file:
+            csv.writer(file, lineterminator="\n").writerows(found)
+
+
+if __name__ == "__main__":
+    main()
