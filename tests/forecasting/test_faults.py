@@ -79,7 +79,7 @@ def test_a_direction_that_never_changed_leaves_no_window_and_says_so():
     wind.theta_met[:] = 1.0
     masked = without_faults(wind)
     assert "600 rows masked" in masked.notes[0]
-    with pytest.raises(InvalidInput, match="valid rows"):
+    with pytest.raises(InvalidInput, match="direction that rests for hours"):
         windows(masked)
 
 

@@ -119,6 +119,13 @@ def changed(**arrays):
     return buffer.getvalue()
 
 
+def test_a_file_that_would_swell_when_read_is_refused():
+    buffer = io.BytesIO()
+    np.savez_compressed(buffer, header=np.zeros(10**7, dtype=np.uint8))
+    with pytest.raises(InvalidInput, match="compression"):
+        loads(buffer.getvalue())
+
+
 def header(**entries):
     """Return a header of which some entries were replaced."""
     with np.load(io.BytesIO(dumps(model()))) as whole:

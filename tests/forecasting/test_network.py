@@ -7,6 +7,7 @@ import pytest
 
 from windopt.errors import InvalidInput
 from windopt.forecasting.integer_network import IntegerNetwork
+from windopt.forecasting.lstm import EdgeForecaster
 from windopt.forecasting.network import FloatNetwork, Weights
 from windopt.forecasting.quantisation import Levels
 from windopt.forecasting.sparse_network import SparseMatrix, SparseNetwork
@@ -106,6 +107,15 @@ def test_integers_are_exact_on_a_thousand_windows_of_the_full_size():
     network = IntegerNetwork(w)
     assert network.exact is np.float32
     assert network.sums(x).tolist() == [in_python_integers(w, window) for window in x]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("minutes", [5, 10])
+def test_integers_are_exact_on_the_shipped_models(minutes):
+    model = EdgeForecaster.shipped(np.timedelta64(minutes, "m")).model
+    x = inputs(B=20, L=120 // minutes, d=5)
+    expected = [in_python_integers(model.weights, window) for window in x]
+    assert IntegerNetwork(model.weights).sums(x).tolist() == expected
 
 
 @pytest.mark.parametrize("bits", [2, 4, 8])

@@ -79,6 +79,9 @@ def loads(content: bytes, name: str = "model file") -> Model:
     if len(content) > SIZE_LIMIT:
         raise InvalidInput(name, f"of at most {SIZE_LIMIT} bytes", len(content))
     try:
+        with zipfile.ZipFile(io.BytesIO(content)) as archive:
+            if any(entry.compress_type != zipfile.ZIP_STORED for entry in archive.infolist()):
+                raise InvalidInput(name, "without compression", "entries that could swell")
         with np.load(io.BytesIO(content), allow_pickle=False) as arrays:
             header = json.loads(arrays["header"].tobytes().decode())
             packed, floats = arrays["packed"], arrays["floats"]

@@ -131,12 +131,17 @@ def windows(
     if len(series) < L + H:
         raise InvalidInput("wind series", f"of at least {L + H} rows", f"{len(series)} rows")
     if not series.valid.any():
-        raise InvalidInput("wind series", "to hold valid rows", "none")
+        raise InvalidInput("wind series", "to hold valid rows", f"none {_why(series)}".strip())
     start = np.flatnonzero(sliding_window_view(series.valid, L + H).all(axis=1))
     if not len(start):
-        expected = f"to hold {L + H} valid rows in sequence"
-        raise InvalidInput("wind series", expected, f"{series.valid.sum()} valid rows, all shorter")
+        found = f"{series.valid.sum()} with gaps between them {_why(series)}".strip()
+        raise InvalidInput("wind series", f"to hold {L + H} valid rows in sequence", found)
     return Windows(series, L, H, start)
+
+
+def _why(series: WindSeries) -> str:
+    """Return what the series' notes say, in brackets."""
+    return f"({' '.join(series.notes)})" if series.notes else ""
 
 
 def chronological_split(series: WindSeries, test: float = 1 / 3) -> tuple[WindSeries, WindSeries]:

@@ -66,8 +66,8 @@ class Recipe:
     gamma: float = 8.0
     stride: int = 2
     validation: float = 0.12
-    schedule: Schedule = field(default_factory=lambda: Schedule(epochs=10))
-    refinement: Schedule = field(default_factory=lambda: Schedule(epochs=6, rate=1.5e-3))
+    schedule: Schedule = field(default_factory=Schedule)
+    refinement: Schedule = field(default_factory=lambda: Schedule(epochs=8, rate=1.5e-3))
 
     def __post_init__(self) -> None:
         if self.target not in TARGETS:

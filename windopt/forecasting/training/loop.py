@@ -36,10 +36,10 @@ class Schedule:
         Largest learning rate [-].
     """
 
-    epochs: int = 24
+    epochs: int = 20
     patience: int = 6
-    batch: int = 512
-    rate: float = 4e-3
+    batch: int = 256
+    rate: float = 3e-3
 
     def __post_init__(self) -> None:
         for name in "epochs", "patience", "batch", "rate":
