@@ -46,8 +46,8 @@ def test_shipped_models_have_four_bits_and_fit_into_30_kilobytes(step, tmp_path)
 def test_shipped_models_beat_persistence_on_a_wind_they_never_saw(step):
     table = EdgeForecaster.shipped(step).backtest(gusty(step))
     speed, direction = table["lstm"].skill(table["persistence"])
-    assert speed > 0.05
-    assert direction > 0.05
+    assert speed > 0.02
+    assert direction > 0.02
 
 
 @pytest.mark.parametrize("step", STEPS)
