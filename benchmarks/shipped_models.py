@@ -28,7 +28,7 @@ TEST = 1 / 3
 COLUMNS = ("speed_mae", "direction_mae", "speed_pinball", "direction_pinball", "coverage_90")
 
 TEN_MINUTES = (
-    "py_wake's year, measured, of a site and year it does not name (examples/data/time_series.npz)",
+    "py_wake's year of winds, of a site and year it does not name",
     "brightwind's demonstration mast, cup and vane at 80 m",
     "foxes' month of the WRF model, 100 m",
 )  # as ten_minute_series
