@@ -121,13 +121,20 @@ def test_it_stands_beside_other_forecasters():
     ]
 
 
-def test_a_forecast_loads_no_torch():
+def test_without_torch_forecasts_work_and_training_names_the_extra():
     program = (
         "import sys, numpy as np\n"
+        "sys.modules['torch'] = None\n"
         "from windopt.domain.wind import WindSeries\n"
-        "from windopt.forecasting.lstm import EdgeForecaster\n"
+        "from windopt.errors import MissingExtra\n"
+        "from windopt.forecasting.lstm import EdgeForecaster, WindForecaster\n"
         "time = np.datetime64('2020-01-01T00:00') + np.timedelta64(5, 'm') * np.arange(30)\n"
         "EdgeForecaster().fit(s := WindSeries(time, np.ones(30), np.ones(30))).predict(s)\n"
-        "assert 'torch' not in sys.modules\n"
+        "try:\n"
+        "    WindForecaster().fit(s)\n"
+        "except MissingExtra as missing:\n"
+        "    assert 'windopt[train]' in str(missing)\n"
+        "else:\n"
+        "    raise AssertionError\n"
     )
     subprocess.run([sys.executable, "-c", program], check=True)

@@ -176,6 +176,8 @@ class WindForecaster:
         try:
             from windopt.forecasting.training.fit import Recipe, fit
         except ModuleNotFoundError as missing:
+            if missing.name != "torch":
+                raise
             raise MissingExtra("Training", "train") from missing
         several = [series] if isinstance(series, WindSeries) else list(series)
         model = fit(
