@@ -59,12 +59,15 @@ class Epoch:
         Mean over the training and the validation windows [-].
     best
         Whether no earlier pass had a smaller validation loss.
+    bits
+        Of the weights: training ends with a second count of passes, on the levels.
     """
 
     number: int
     loss: float
     validation_loss: float
     best: bool
+    bits: int
 
 
 @dataclass(frozen=True)
@@ -133,7 +136,7 @@ def train(
     rate = torch.optim.lr_scheduler.OneCycleLR(
         optimiser, schedule.rate, total_steps=schedule.epochs * steps + 1
     )
-    state = _State(module, optimiser, rate)
+    state = _State(module, optimiser, rate, shape.bits)
     if checkpoint is not None and checkpoint.exists():
         state.load(checkpoint)
 
@@ -170,8 +173,8 @@ def train(
 class _State:
     """What a training that was interrupted goes on from."""
 
-    def __init__(self, module: LstmModule, optimiser: Any, rate: Any) -> None:
-        self.module, self.optimiser, self.rate = module, optimiser, rate
+    def __init__(self, module: LstmModule, optimiser: Any, rate: Any, bits: int) -> None:
+        self.module, self.optimiser, self.rate, self.bits = module, optimiser, rate, bits
         self.epoch, self.best_epoch, self.best_loss = 0, 0, float("inf")
         self.best: dict[str, Tensor] = {}
 
@@ -181,7 +184,7 @@ class _State:
         if better := bool(np.isfinite(validation_loss)) and validation_loss < self.best_loss:
             self.best_epoch, self.best_loss = number, validation_loss
             self.best = {name: value.clone() for name, value in self.module.state_dict().items()}
-        return Epoch(number, loss, validation_loss, better)
+        return Epoch(number, loss, validation_loss, better, self.bits)
 
     def best_weights(self) -> Weights:
         """Return the raw weights of the best epoch."""
