@@ -131,7 +131,8 @@ def main() -> None:
     series = [WindSeries.read(path) for path in chosen.files] or ten_minute_series()
 
     def progress(epoch: Epoch) -> None:
-        print(f"{epoch.bits:2d} bits {epoch.number:3d}  {epoch.loss:.4f}  {epoch.validation_loss:.4f}", flush=True)
+        losses = f"{epoch.loss:.4f}  {epoch.validation_loss:.4f}"
+        print(f"{epoch.bits:2d} bits {epoch.number:3d}  {losses}", flush=True)
 
     early = [chronological_split(one, TEST)[0] for one in series]
     model = EdgeForecaster(fit(Recipe(), early, seed=chosen.seed, progress=progress))

@@ -64,6 +64,8 @@ def test_the_layers_hold(copy):
         ("windopt/planning/plan.py", "windopt.io.plans", "imports run down"),
         ("windopt/solving/integer.py", "windopt.heuristics.splitting", "imports run down"),
         ("windopt/planning/yaw.py", "torch", "torch stays in training"),
+        ("windopt/forecasting/lstm.py", "torch", "torch stays in training"),
+        ("windopt/planning/plan.py", "matplotlib", "matplotlib in plotting"),
     ],
 )
 def test_a_forbidden_import_breaks_its_contract(copy, module, forbidden, contract):
