@@ -30,7 +30,7 @@ def test_everything_that_is_promised_can_be_imported():
 
 @pytest.fixture
 def copy(tmp_path):
-    for package in "windopt", "formulations":
+    for package in "windopt", "formulations", "benchmarks":
         shutil.copytree(ROOT / package, tmp_path / package)
     shutil.copy(ROOT / "pyproject.toml", tmp_path)
     return tmp_path
@@ -54,6 +54,11 @@ def test_the_layers_hold(copy):
     assert done.returncode == 0, done.stdout
 
 
+def test_a_module_in_no_layer_breaks_the_layers(copy):
+    (copy / "windopt" / "physics.py").write_text('"""Shared by all."""\n', encoding="utf-8")
+    assert lint(copy).returncode == 1
+
+
 @pytest.mark.parametrize(
     ("module", "forbidden", "contract"),
     [
@@ -66,6 +71,8 @@ def test_the_layers_hold(copy):
         ("windopt/planning/yaw.py", "torch", "torch stays in training"),
         ("windopt/forecasting/lstm.py", "torch", "torch stays in training"),
         ("windopt/planning/plan.py", "matplotlib", "matplotlib in plotting"),
+        ("windopt/domain/wind.py", "benchmarks.built_in_data", "nobody imports the benchmarks"),
+        ("windopt/domain/wind.py", "formulations.rotor", "mathematics is reached through"),
     ],
 )
 def test_a_forbidden_import_breaks_its_contract(copy, module, forbidden, contract):

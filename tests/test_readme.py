@@ -5,6 +5,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import windopt
+
 ROOT = Path(__file__).parents[1]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 
@@ -29,3 +31,8 @@ def test_there_are_two_commands_and_both_pin_their_versions():
     assert all("-c constraints.txt" in command for command in commands)
     assert "windopt demo" in commands[0]
     assert "pytest" in commands[1]
+
+
+def test_the_version_to_cite_is_this_one():
+    citation = (ROOT / "CITATION.cff").read_text(encoding="utf-8")
+    assert f"\nversion: {windopt.__version__}\n" in citation
