@@ -6,7 +6,7 @@ from typing import Any
 
 from windopt.checking.inspection import check_inspection
 from windopt.checking.report import Report
-from windopt.checking.yaw import check_yaw
+from windopt.checking.yaw import check_yaw, most_power
 from windopt.domain.plan import InspectionPlan, Plan, YawPlan
 from windopt.result import Result, Status
 
@@ -49,6 +49,8 @@ def _promises(result: Result[Any]) -> Iterator[str]:
     overstated = result.bound - value if flights else value - result.bound
     if isnan(result.bound) or overstated > slack:
         yield f"the bound of {result.bound:.9g} does not bound the objective of {value:.9g}"
+    if isinstance(plan, YawPlan) and result.bound < most_power(plan) * (1 - TOLERANCE):
+        yield f"the bound of {result.bound:.9g} W is below the {most_power(plan):.9g} W possible"
     if result.status is Status.OPTIMAL and not isfinite(result.bound):
         yield "the plan is called optimal without a bound"
     if result.status in {Status.INFEASIBLE, Status.NO_SOLUTION}:
