@@ -1,6 +1,7 @@
 """The checker against plans worked out on paper, and against each way of breaking them."""
 
 from dataclasses import replace
+from math import hypot
 
 import pytest
 
@@ -69,13 +70,38 @@ MUTANTS = {
         (Station("S1", 0.0, 0.0, replace(UAV, airspeed=8.0)),))),
     "leg 3 is said to take": replace(PLAN, wind=Wind.from_met(6.0, 91.0)),
     "a dwell is negative": replace(PLAN, dwell=(-30.0, 30.0, 30.0, 30.0)),
+    "a dwell is negative or not a number": replace(PLAN, dwell=(float("nan"), 30.0, 30.0, 30.0)),
     "3 dwells for 4 turbines": replace(PLAN, dwell=(30.0, 30.0, 30.0)),
+    "said to take nan s": broken(legs=(100.0, 100.0, float("nan"), 250.0)),
+    "said to take inf s": broken(legs=(100.0, 100.0, float("inf"), 250.0)),
+    "said to take -100 s": broken(legs=(-100.0, 100.0, 100.0, 250.0)),
+    "said to last nan s": broken(duration=float("nan")),
+    "said to last inf s": broken(duration=float("inf")),
+    "said to last -640 s": broken(duration=-640.0),
+    "the wind of 9.50 m/s is above": replace(PLAN, wind=Wind.from_met(9.5, 90.0)),
 }  # fmt: skip
 
 
 @pytest.mark.parametrize("sentence", MUTANTS)
 def test_a_broken_plan_is_rejected(sentence):
     assert any(sentence in violation for violation in check(MUTANTS[sentence]).violations)
+
+
+def test_two_flights_of_one_station_pass():
+    north = replace(ROUND, turbines=("A1",), legs=(100.0, 100.0), duration=230.0)
+    # North-westward, 4.7 m/s of the wind help: capped at 10 m/s over ground.
+    far = hypot(1000.0, 800.0) / 10.0
+    west = replace(ROUND, turbines=("A2", "B1"), legs=(far, 100.0, 250.0), duration=far + 410.0)
+    report = check(replace(PLAN, flights=(north, west)))
+    assert report.passed, report.violations
+
+
+def test_violations_are_listed_in_one_order():
+    strange = tuple(Unreachable(f"Z{i}", "") for i in reversed(range(9)))
+    known = tuple(Unreachable(name, "") for name in ("B1", "A2", "A1"))
+    report = check(replace(PLAN, flights=(), unreachable=(FAR, *strange, *known)))
+    named = [sentence.split()[1] for sentence in report.violations]
+    assert named == [*(f"Z{i}" for i in range(9)), "A1", "A1", "A2", "A2", "B1", "B1"]
 
 
 def test_a_longer_dwell_makes_the_flight_too_long():
