@@ -6,7 +6,10 @@ Where no flight from any station serves all of S in time, at least two fly into 
 
 These rows are to the flight time what rounded capacity inequalities are to loads (Laporte,
 Nobert & Desrochers 1985, *Operations Research* 33, 1050-1073), but the need for a second flight
-is decided exactly, by dynamic programming over the orders in which S can be flown.
+is decided exactly, by dynamic programming over the orders in which S can be flown. A flight may
+call at other turbines between those of S, so legs count with the least time over any detour. That
+differs from the time of the leg only where times break the triangle inequality, and it means that
+a set which holds one in need of two flights needs two itself.
 """
 
 from collections.abc import Iterator
@@ -29,7 +32,10 @@ class OneFlight:
     known: dict[Nodes, bool] = field(default_factory=dict)
 
     def serves(self, S: Nodes) -> bool:
-        """Return whether one flight from some station can serve all nodes of ``S`` in time."""
+        """Return whether one flight from some station can serve all nodes of ``S`` in time.
+
+        It may pass other nodes, or the same ones again, wherever that is faster.
+        """
         if S not in self.known:
             stations = range(len(self.arcs.tau))
             self.known[S] = any(self._serves_from(d, np.array(S)) for d in stations)
@@ -72,9 +78,9 @@ class OneFlight:
         Each step holds, for every (set of turbines served, last of them), the least time; those
         from which the station is out of reach are dropped.
         """
-        tau, omega = self.arcs.tau[d][np.ix_(S, S)], self.arcs.omega[d, S]
+        tau, omega = self.arcs.shortest[d][np.ix_(S, S)], self.arcs.omega[d, S]
         bit = 1 << np.arange(len(S))
-        served, last, time = bit, np.arange(len(S)), self.arcs.tau[d, 0, S]
+        served, last, time = bit, np.arange(len(S)), self.arcs.alpha[d, S]
         for _ in range(len(S) - 1):
             arrival = time[:, None] + tau[last]
             step, last = np.nonzero(

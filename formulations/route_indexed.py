@@ -34,7 +34,6 @@ solver's tolerance; :meth:`RouteIndexed.cuts` gives only those that a solution v
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 
 import highspy
 import numpy as np
@@ -60,15 +59,12 @@ class RouteIndexed:
 
     def cuts(self, x: NDArray[np.float64]) -> Iterator[highs_linear_expression]:
         """Yield the rows (7) that ``x``, fractional or not, violates; if none, the rows (10)."""
-        closed = np.array_equal(x, np.rint(x))
-        for S in violated_sets(x.sum(axis=0)):
-            closed = False
+        whole = np.array_equal(x, np.rint(x))
+        subtours = list(violated_sets(x.sum(axis=0)))
+        for S in subtours:
             yield inflow_row(self.x, S, self.flown)
-        for r in range(len(x)) if closed else ():
-            for flight in flights(x[r]):
-                P = list(pairwise((0, *(i + 1 for i in flight), 0)))
-                if self.arcs.too_long(int(self.station[r]), P):
-                    yield sum(self.x[r, i, j] for i, j in P) <= len(P) - 1
+        if whole and not subtours:
+            yield from self.arcs.long_flights(self.x, x, self.station.tolist())
 
     def routes(self, x: NDArray[np.float64]) -> list[tuple[int, tuple[int, ...]]]:
         """Return the flights of ``x``: each one's station and its turbines in order, from 0."""

@@ -26,17 +26,16 @@ flight: it has neither :math:`f` nor rows, and its :math:`x` is fixed to 0. Each
 own arcs because a flight must return to where it left from, and because UAVs may differ.
 
 The rest is there for the proof. The number of flights :math:`m` gives the search something to
-branch on that decides much at once. In (8), :math:`r(S)` is 2 where no single flight can serve S
-and 1 elsewhere: it tightens the relaxation; (4)-(6) alone rule out long flights and, where legs
-take time, subtours. (9) takes the flights that are too long by less than the solver's tolerance.
-(8) and (9) have exponentially many rows, so :meth:`TimeFlow.cuts` gives only those that a
-solution violates. The flow goes back to Gavish & Graves (1978), MIT Operations Research Center
-working paper 078-78.
+branch on that decides much at once. In (8), :math:`r(S)` is 2 where no single flight can serve S,
+by whatever detour (:mod:`formulations.one_flight`), and 1 elsewhere: it tightens the relaxation;
+(4)-(6) alone rule out long flights and, where legs take time, subtours. (9) takes the flights that
+are too long by less than the solver's tolerance. (8) and (9) have exponentially many rows, so
+:meth:`TimeFlow.cuts` gives only those that a solution violates. The flow goes back to Gavish &
+Graves (1978), MIT Operations Research Center working paper 078-78.
 """
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 
 import highspy
 import numpy as np
@@ -72,10 +71,7 @@ class TimeFlow:
             for S in self.one_flight.crowded_sets(merged):
                 yield inflow_row(self.x, S, self.arcs.flown, least=2)
         elif not subtours:
-            for d, flight in self.routes(x):
-                P = list(pairwise((0, *(i + 1 for i in flight), 0)))
-                if self.arcs.too_long(d, P):
-                    yield sum(self.x[d, i, j] for i, j in P) <= len(P) - 1
+            yield from self.arcs.long_flights(self.x, x, range(len(x)))
 
     def routes(self, x: NDArray[np.float64]) -> list[tuple[int, tuple[int, ...]]]:
         """Return the flights of ``x``: each one's station and its turbines in order, from 0."""

@@ -6,24 +6,24 @@ from math import inf
 import numpy as np
 import pytest
 
-from formulations.wind_triangle import flight_time, ground_speed
+from formulations.wind_triangle import flight_time, ground_speed, ground_speed_paper
 
 ROUNDING = 1e-9
 
 
-def flight_times(stations, turbines, w, u_max=16.0, dwell=0.0):
+def flight_times(stations, turbines, w, u_max=16.0, dwell=0.0, speed=ground_speed):
     """Return the times between each station and the turbines [s]."""
     times = []
     for station in stations:
         nodes = np.vstack([station, turbines])
         d = nodes[None] - nodes[:, None]
-        t = flight_time(d, ground_speed(d, np.asarray(w, dtype=float), u_max))
+        t = flight_time(d, speed(d, np.asarray(w, dtype=float), u_max))
         t[:, 1:] += dwell
         times.append(t)
     return np.array(times)
 
 
-def random_instance(seed, turbines=7, stations=3):
+def random_instance(seed, turbines=7, stations=3, rule=ground_speed):
     """Draw t, t_max and allowed: any wind, dwell, UAVs that differ, some of it infeasible."""
     rng = np.random.default_rng(seed)
     n, k = int(rng.integers(1, turbines + 1)), int(rng.integers(1, stations + 1))
@@ -40,15 +40,42 @@ def random_instance(seed, turbines=7, stations=3):
                 speed * np.array([np.cos(angle), np.sin(angle)]),
                 u_max=rng.choice([14.0, 16.0]),
                 dwell=rng.choice([0.0, 60.0]),
+                speed=rule,
             )
             for d in range(k)
         ]
     )
+    return t, *_limits(t, rng)
+
+
+def random_times(seed, turbines=7, stations=3):
+    """Draw t, t_max and allowed without a geography: detours are faster than many a leg."""
+    rng = np.random.default_rng(seed)
+    n, k = int(rng.integers(2, turbines + 1)), int(rng.integers(1, stations + 1))
+    t = rng.uniform(10.0, 600.0, (k, n + 1, n + 1))
+    t[rng.uniform(size=t.shape) < 0.05] = inf
+    return t, *_limits(t, rng)
+
+
+def _limits(t, rng):
+    """Draw t_max and allowed for flights that take t."""
+    k, n = len(t), t.shape[1] - 1
     round_trips = (t[:, 0, 1:] + t[:, 1:, 0]).min(axis=0)
     longest = round_trips[np.isfinite(round_trips)].max(initial=100.0)
     t_max = longest * rng.uniform(0.95, 2.5) * rng.choice([1.0, 1.2], size=k)
-    allowed = rng.uniform(size=(k, n)) < 0.95
-    return t, t_max, allowed
+    return t_max, rng.uniform(size=(k, n)) < 0.95
+
+
+def random_paper_instance(seed, turbines=7, stations=3):
+    """Draw the same by the paper's rule for the speed, which breaks the triangle inequality."""
+    return random_instance(seed, turbines, stations, rule=ground_speed_paper)
+
+
+INSTANCES = {  # of the times, with and without the triangle inequality
+    "wind": random_instance,
+    "paper": random_paper_instance,
+    "any": random_times,
+}
 
 
 def cheapest(t, t_max, allowed=None):
@@ -89,6 +116,7 @@ def routing():
     class Routing:
         flight_times = staticmethod(flight_times)
         random_instance = staticmethod(random_instance)
+        instances = INSTANCES
         cheapest = staticmethod(cheapest)
 
     return Routing

@@ -30,10 +30,11 @@ def optimum(routing):
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("times", ["wind", "paper", "any"])
 @pytest.mark.parametrize("hundred", range(5))
-def test_optimum_equals_enumeration_on_a_hundred_random_instances(hundred, routing):
+def test_optimum_equals_enumeration_on_a_hundred_random_instances(hundred, times, routing):
     for seed in range(100 * hundred, 100 * hundred + 100):
-        t, t_max, allowed = routing.random_instance(seed, turbines=7, stations=3)
+        t, t_max, allowed = routing.instances[times](seed, turbines=7, stations=3)
         expected = routing.cheapest(t, t_max, allowed)
         result = solve(time_flow(t, t_max, allowed=allowed))
         # Sums of at most 14 legs in another order: 1e-9 is generous.
@@ -197,12 +198,12 @@ def test_numbers_that_mean_nothing_are_refused(t, t_max, message):
 @pytest.mark.slow
 @pytest.mark.parametrize(("k", "n"), [(1, 15), (2, 16)])
 def test_it_proves_the_sizes_it_promises(k, n, routing):
-    """Tight flights in a strong wind; seconds on an idle machine, so the limit is no claim."""
+    """Tight flights in a strong wind; a minute is what is promised."""
     rng = np.random.default_rng(1)
     turbines, stations = rng.uniform(0, 8000, (n, 2)), rng.uniform(0, 8000, (k, 2))
     t = routing.flight_times(stations, turbines, [0.0, -10.0])
     t_max = 1.1 * (t[:, 0, 1:] + t[:, 1:, 0]).min(axis=0).max()
-    result = solve(time_flow(t, t_max), time_limit=300.0)
+    result = solve(time_flow(t, t_max), time_limit=60.0)
     assert result.status is Status.OPTIMAL
     assert result.gap < 1e-9
 
