@@ -8,11 +8,9 @@ from windopt.cli.fleets import fleet
 from windopt.cli.outcome import exit_code, print_record
 from windopt.cli.terminal import note, progress, show_inspection
 from windopt.domain.farm import Farm
-from windopt.domain.fleet import Uav
+from windopt.domain.fleet import FALCON_8, Uav
 from windopt.domain.wind import Wind
 from windopt.planning.inspection import DEFAULT_METHOD, plan_inspection
-
-FALCON_8 = Uav()
 
 
 def inspect(

@@ -8,12 +8,11 @@ import typer
 from windopt.cli import options as opt
 from windopt.cli.files import write_folder
 from windopt.cli.fleets import fleet
-from windopt.cli.inspect import FALCON_8
 from windopt.cli.outcome import exit_code, print_record
 from windopt.cli.terminal import note, progress, show_plan
 from windopt.cli.times import parsed
 from windopt.domain.farm import Farm
-from windopt.domain.fleet import Uav
+from windopt.domain.fleet import FALCON_8, Uav
 from windopt.domain.wind import WindSeries
 from windopt.planning.inspection import DEFAULT_METHOD
 from windopt.planning.plan import DEFAULT_FORECASTER

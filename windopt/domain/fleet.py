@@ -39,6 +39,10 @@ class Uav:
             raise InvalidInput("wind_max", ">= 0", self.wind_max)
 
 
+FALCON_8 = Uav()
+"""The paper's UAV."""
+
+
 @dataclass(frozen=True)
 class Station:
     """A place that UAVs of one make take off from and land at.
@@ -56,7 +60,7 @@ class Station:
     name: str
     x: float
     y: float
-    uav: Uav = Uav()
+    uav: Uav = FALCON_8
 
     def __post_init__(self) -> None:
         if not self.name:

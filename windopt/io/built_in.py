@@ -4,10 +4,10 @@ from dataclasses import replace
 from pathlib import Path
 
 from windopt.domain.farm import Farm
-from windopt.domain.fleet import Fleet, Uav
+from windopt.domain.fleet import FALCON_8, Fleet, Uav
 from windopt.domain.wind import WindSeries
 from windopt.io.series import read_series
-from windopt.io.stations import FALCON_8, read_stations
+from windopt.io.stations import read_stations
 from windopt.io.windio import farm_from_windio
 from windopt.io.yaml_files import read_yaml
 

@@ -6,12 +6,11 @@ from io import StringIO
 from pathlib import Path
 
 from windopt.domain.farm import Farm
-from windopt.domain.fleet import Fleet, Station, Uav
+from windopt.domain.fleet import FALCON_8, Fleet, Station, Uav
 from windopt.errors import InvalidInput
 from windopt.io.positions import read_positions
 from windopt.io.whole_files import write_whole
 
-FALCON_8 = Uav()
 LIMITS = ("airspeed", "t_max", "wind_max")
 
 
