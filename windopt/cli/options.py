@@ -25,7 +25,8 @@ Stations = Annotated[
     typer.Option(
         metavar="N|FILE",
         help="Stations: how many to place by k-means, or a CSV file (id, x, y). "
-        "By default the farm's own, or as few as reach every turbine in 10 m/s from anywhere.",
+        "By default the farm's own, or as few as reach every turbine in 10 m/s from anywhere "
+        "(slower UAVs: in 5/8 of their airspeed).",
     ),
 ]
 Time = Annotated[

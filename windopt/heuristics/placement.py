@@ -103,12 +103,13 @@ def balanced_stations(instance: RoutingInstance, capacity: int) -> Ints:
 def _seeds(points: Floats, k: int, rng: np.random.Generator) -> Floats:
     """Draw k of the points, each with chance in proportion to its squared distance from those."""
     centres = points[rng.integers(len(points), size=1)]
+    weight = _squared_distances(points, centres)[:, 0]
     while len(centres) < k:
-        weight = _squared_distances(points, centres).min(axis=1)
         if not weight.any():
             weight[:] = 1.0  # Every point is a centre already: turbines stand on one another.
-        chosen = rng.choice(len(points), p=weight / weight.sum())
+        chosen = rng.choice(len(points), size=1, p=weight / weight.sum())
         centres = np.vstack([centres, points[chosen]])
+        weight = np.minimum(weight, _squared_distances(points, points[chosen])[:, 0])
     return centres
 
 
@@ -116,9 +117,9 @@ def _lloyd(points: Floats, centres: Floats) -> Floats:
     """Move each centre to the mean of the points nearest to it until none moves."""
     for _ in range(ROUNDS):
         cluster = _squared_distances(points, centres).argmin(axis=1)
-        moved = centres.copy()
-        for c in np.unique(cluster):
-            moved[c] = points[cluster == c].mean(axis=0)
+        size = np.bincount(cluster, minlength=len(centres))
+        total = [np.bincount(cluster, axis, len(centres)) for axis in points.T]
+        moved = np.where(size > 0, total / np.maximum(size, 1), centres.T).T
         if np.array_equal(moved, centres):
             break
         centres = moved

@@ -47,6 +47,28 @@ def routing_instance(
     )
 
 
+def in_reach(farm: Farm, fleet: Fleet, wind: Wind, *, dwell: Sequence[float]) -> NDArray[np.bool_]:
+    """Return whether station d can inspect turbine i and be back in time, shape ``(k, n)``.
+
+    The same as :attr:`RoutingInstance.reachable` of :func:`routing_instance` under the exact rule,
+    without the times between turbines.
+    """
+    reach = [_in_reach_of(station, farm, wind, dwell) for station in fleet.stations]
+    return np.stack(reach)
+
+
+def _in_reach_of(
+    station: Station, farm: Farm, wind: Wind, dwell: Sequence[float]
+) -> NDArray[np.bool_]:
+    d, uav = farm.xy - (station.x, station.y), station.uav
+    out, back = (
+        flight_time(way, ground_speed(way, wind.velocity, uav.airspeed, cap=uav.ground_speed_cap))
+        for way in (d, -d)
+    )
+    reached: NDArray[np.bool_] = out + np.asarray(dwell) + back <= uav.t_max
+    return reached & _flies(station, wind)
+
+
 def _times(station: Station, farm: Farm, wind: Wind, rule: SpeedRule) -> NDArray[np.float64]:
     """Return the flight times between a station and the turbines [s], ``(n + 1, n + 1)``."""
     places = np.vstack([(station.x, station.y), farm.xy])
