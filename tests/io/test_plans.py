@@ -84,8 +84,8 @@ WHOLE = Plan(np.datetime64("2011-04-13T22:00:30"), FORECAST, (TURNED, TURNED), F
 RECORDS = {"inspection": record_of(FLOWN), "yaw": record_of(TURNED), "plan": record_of(WHOLE)}
 
 
-def back(plan, problem=None):
-    return plan_from_record(json.loads(json_text(record_of(plan, problem))))
+def back(plan):
+    return plan_from_record(json.loads(json_text(record_of(plan))))
 
 
 def near(plan):
@@ -134,31 +134,20 @@ def test_a_whole_plan_is_read_back():
     np.testing.assert_allclose(forecast.theta_met, FORECAST.theta_met, atol=1e-12)
 
 
-@pytest.mark.parametrize("status", [Status.INFEASIBLE, Status.NO_SOLUTION, Status.INTERRUPTED])
-def test_that_there_is_no_plan_is_recorded_too(status):
-    bound = inf if status is Status.INFEASIBLE else -inf
-    nothing = Result(status, None, inf, bound, 1.0, reason="Every turbine is too far.")
-    empty = replace(INSPECTION, flights=(), unreachable=())
-    record = record_of(nothing, empty)
+def test_without_a_plan_there_is_nothing_to_record():
+    nothing = Result(Status.NO_SOLUTION, None, inf, -inf, 1.0, reason="No time was given.")
+    for plan in nothing, replace(WHOLE, inspection=nothing), replace(WHOLE, yaw=(TURNED, nothing)):
+        with pytest.raises(ValueError, match=r"limit was reached.*No time was given"):
+            record_of(plan)
+
+
+@pytest.mark.parametrize(("result", "bound"), [(FLOWN, -inf), (TURNED, inf)])
+def test_a_bound_that_nobody_proved_is_null(result, bound):
+    unproved = replace(result, bound=bound)
+    record = record_of(unproved)
     VALIDATOR.validate(record)
-    assert (record["flights"], record["objective"], record["gap"]) == ([], None, None)
-    assert len(record["farm"]["turbines"]) == 3
-    assert back(nothing, empty) == nothing
-
-
-def test_a_yaw_without_solution_is_recorded_too():
-    nothing = Result(Status.NO_SOLUTION, None, -inf, inf, 1.0)
-    empty = replace(YAW, set_points=())
-    VALIDATOR.validate(record_of(nothing, empty))
-    assert back(nothing, empty) == nothing
-    partly = replace(WHOLE, yaw=(TURNED, nothing))
-    VALIDATOR.validate(record_of(partly))
-    assert back(partly).yaw[1] == nothing
-
-
-def test_without_solution_or_problem_there_is_nothing_to_record():
-    with pytest.raises(ValueError, match="limit was reached"):
-        record_of(Result(Status.NO_SOLUTION, None, inf, -inf, 1.0))
+    assert (record["bound"], record["gap"]) == (None, None)
+    assert back(unproved).bound == bound
 
 
 @pytest.mark.parametrize("time", ["2011-04-13", "2011-04-13T22", "2011-04-13T22:00:00.125"])
@@ -203,6 +192,7 @@ def test_a_plan_with_a_value_that_is_no_number_is_not_written(tmp_path):
         ("yaw", "turbines.0.yaw", None, r"turbines\[0\].yaw to be a number, got None"),
         ("yaw", "turbines.2.power", "1", r"turbines\[2\].power to be a number, got '1'"),
         ("yaw", "objective", ..., "objective to be given"),
+        ("inspection", "objective", None, "objective to be a number, got None"),
         ("inspection", "status", "fine", "status to be one of optimal, .* got 'fine'"),
         ("inspection", "rule", "guess", "rule to be one of exact, paper"),
         ("inspection", "wind.u", ..., "wind.u to be given"),

@@ -1,7 +1,6 @@
 """Records of plans, read back into plans; the counterpart of :mod:`windopt.io.plan_records`."""
 
 import re
-from collections.abc import Callable
 from enum import StrEnum
 from math import inf, radians
 from typing import Any, TypeVar
@@ -62,22 +61,20 @@ def plan_from_record(document: Any) -> Recorded:
     farm = _farm(record["farm"])
     if kind == "yaw":
         return _yaw_result(record, farm)
-    inspection = _result(record, lambda: _inspection(record, farm), worst=inf)
+    inspection = _result(record, _inspection(record, farm), unproved=-inf)
     if kind == "inspection":
         return inspection
     yaw = tuple(_yaw_result(step, farm) for step in record["yaw"])
     return Plan(_time(record["time"]), _forecast(record["forecast"]), yaw, inspection)
 
 
-def _result(record: Entry, solution: Callable[[], Solution], worst: float) -> Result[Solution]:
-    """Read an outcome; ``worst`` is what no solution is worth: inf for costs, -inf for gains."""
-    status = _choice(record["status"], Status)
-    objective, bound = record.nullable("objective"), record.nullable("bound")
-    unproved = worst if status is Status.INFEASIBLE else -worst
+def _result(record: Entry, solution: Solution, unproved: float) -> Result[Solution]:
+    """Read an outcome; ``unproved`` is the bound that says nothing."""
+    bound = record.nullable("bound")
     return Result(
-        status,
-        None if objective is None else solution(),
-        worst if objective is None else objective.number,
+        _choice(record["status"], Status),
+        solution,
+        record["objective"].number,
         unproved if bound is None else bound.number,
         record["runtime"].number,
         record["bound_source"].text,
@@ -86,7 +83,7 @@ def _result(record: Entry, solution: Callable[[], Solution], worst: float) -> Re
 
 
 def _yaw_result(record: Entry, farm: Farm) -> Result[YawPlan]:
-    return _result(record, lambda: _yaw(record, farm), worst=-inf)
+    return _result(record, _yaw(record, farm), unproved=inf)
 
 
 def _choice(entry: Entry, choices: type[Choice]) -> Choice:

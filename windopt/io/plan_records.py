@@ -3,8 +3,7 @@
 A record is SI throughout, but for directions and blade pitch, which are in degrees. What is not
 finite, such as a bound that nobody proved, is null. Equal plans give equal records, key by key.
 
-Every record says which farm, stations and wind it was made for, also where no plan was found;
-that is what ``problem`` is for: the same plan, empty.
+A record holds a plan: a result without one has nothing to record, and ``found`` says why.
 """
 
 from collections.abc import Iterable
@@ -24,58 +23,30 @@ SCHEMA = "windopt/plan"
 VERSION = 1
 
 
-def inspection_record(
-    result: Result[InspectionPlan], problem: InspectionPlan | None = None
-) -> Record:
-    """Record the flights of an inspection.
-
-    Parameters
-    ----------
-    problem
-        Stands in for the solution where there is none: a plan without flights.
-    """
-    plan = result.solution or problem or result.found()
+def inspection_record(result: Result[InspectionPlan]) -> Record:
+    """Record the flights of an inspection."""
+    plan = result.found()
     return {**_head("inspection"), **_outcome(result), **_inspection(plan), **_farm(plan.farm)}
 
 
-def yaw_record(result: Result[YawPlan], problem: YawPlan | None = None) -> Record:
-    """Record the set-points of a farm.
-
-    Parameters
-    ----------
-    problem
-        Stands in for the solution where there is none: a plan without set-points.
-    """
-    plan = result.solution or problem or result.found()
+def yaw_record(result: Result[YawPlan]) -> Record:
+    """Record the set-points of a farm."""
+    plan = result.found()
     return {**_head("yaw"), **_outcome(result), **_yaw(plan), **_farm(plan.farm)}
 
 
-def plan_record(plan: Plan, problem: InspectionPlan | None = None) -> Record:
-    """Record the whole answer: the inspection's record, the forecast and a yaw record per step.
-
-    Parameters
-    ----------
-    problem
-        Stands in for the inspection plan where there is none: a plan without flights.
-    """
-    inspection = inspection_record(plan.inspection, problem)
-    farm = (plan.inspection.solution or problem or plan.inspection.found()).farm
+def plan_record(plan: Plan) -> Record:
+    """Record the whole answer: the inspection's record, the forecast and a yaw record per step."""
     return {
-        **inspection,
+        **inspection_record(plan.inspection),
         "kind": "plan",
         "time": str(plan.time),
         "forecast": _forecast(plan.forecast),
         "yaw": [
-            {"time": str(time), **_outcome(step), **_yaw(step.solution or _blank(farm, wind))}
-            for time, wind, step in zip(
-                plan.forecast.time, plan.forecast.winds, plan.yaw, strict=True
-            )
+            {"time": str(time), **_outcome(step), **_yaw(step.found())}
+            for time, step in zip(plan.forecast.time, plan.yaw, strict=True)
         ],
     }
-
-
-def _blank(farm: Farm, wind: Wind) -> YawPlan:
-    return YawPlan(farm, wind, (), 0.0, 0.0)
 
 
 def _head(kind: str) -> Record:
@@ -97,7 +68,7 @@ def _degrees(radians: float) -> float:
 def _outcome(result: Result[Any]) -> Record:
     return {
         "status": str(result.status),
-        "objective": _finite(result.objective) if result.solution is not None else None,
+        "objective": float(result.objective),
         "bound": _finite(result.bound),
         "gap": _finite(result.gap),
         "bound_source": result.bound_source,

@@ -7,7 +7,7 @@ import json
 from pathlib import Path
 from typing import Any
 
-from windopt.domain.plan import InspectionPlan, Plan, YawPlan
+from windopt.domain.plan import Plan, YawPlan
 from windopt.errors import InvalidInput
 from windopt.io.plan_reader import Recorded, plan_from_record
 from windopt.io.plan_records import Record, inspection_record, plan_record, yaw_record
@@ -25,28 +25,23 @@ __all__ = [
 ]
 
 
-def record_of(plan: Recorded, problem: InspectionPlan | YawPlan | None = None) -> Record:
+def record_of(plan: Recorded) -> Record:
     """Record a plan of any kind.
 
     Parameters
     ----------
     plan
         A whole plan, or the result of planning an inspection or the yaw.
-    problem
-        Stands in for the solution where there is none: the same kind of plan, empty.
 
     Raises
     ------
     ValueError
-        If there is neither a solution nor a ``problem``.
+        With the reason, if the result holds no plan.
     """
     if isinstance(plan, Plan):
-        return plan_record(plan, problem if isinstance(problem, InspectionPlan) else None)
-    solution: Any = plan.solution or problem or plan.found()
+        return plan_record(plan)
     result: Result[Any] = plan
-    if isinstance(solution, YawPlan):
-        return yaw_record(result, solution)
-    return inspection_record(result, solution)
+    return yaw_record(result) if isinstance(plan.found(), YawPlan) else inspection_record(result)
 
 
 def json_text(record: Record) -> str:
@@ -54,23 +49,15 @@ def json_text(record: Record) -> str:
     return json.dumps(record, indent=2, allow_nan=False) + "\n"
 
 
-def write_plan(
-    plan: Recorded,
-    path: str | Path,
-    *,
-    force: bool = False,
-    problem: InspectionPlan | YawPlan | None = None,
-) -> Path:
+def write_plan(plan: Recorded, path: str | Path, *, force: bool = False) -> Path:
     """Write a plan of any kind, whole or not at all.
 
     Parameters
     ----------
     force
         Whether a file that is already there may be replaced.
-    problem
-        As in :func:`record_of`.
     """
-    return write_whole(path, json_text(record_of(plan, problem)), force=force)
+    return write_whole(path, json_text(record_of(plan)), force=force)
 
 
 def read_plan(path: str | Path) -> Recorded:
@@ -79,7 +66,7 @@ def read_plan(path: str | Path) -> Recorded:
     Returns
     -------
     Result or Plan
-        What was written; its solution is ``None`` where the record has no objective.
+        What was written.
 
     Raises
     ------
