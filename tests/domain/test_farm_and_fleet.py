@@ -87,8 +87,19 @@ def test_a_turbine_is_reachable_when_the_way_back_fits_too():
         ({"t": np.zeros((1, 2, 2))}, "t"),
         ({"t_max": np.zeros(2)}, "t_max"),
         ({"t": -np.ones((1, 3, 3))}, "t"),
+        ({"t_max": np.array([0.0])}, "t_max"),
+        ({"t_max": np.array([nan])}, "t_max"),
+        ({"w": np.zeros(3)}, "w"),
+        ({"airspeed": np.ones(2)}, "airspeed"),
+        ({"airspeed": -1.0}, "airspeed"),
     ],
 )
-def test_an_instance_of_unequal_shapes_is_refused(changes, field):
+def test_an_instance_of_unequal_shapes_or_impossible_limits_is_refused(changes, field):
     with pytest.raises(InvalidInput, match=f"Expected {field} "):
         instance(**changes)
+
+
+def test_an_instance_can_be_compared_and_hashed():
+    one, other = instance(), instance()
+    assert one == one
+    assert len({one, other}) == 2

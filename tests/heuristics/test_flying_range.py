@@ -60,6 +60,12 @@ def test_half_a_flight_against_the_wind_ends_the_range_of_the_radius_named_for_i
     assert flying_range(instance, (16.0 + 10.0) * 540.0).tolist() == [[True, False]]
 
 
+@pytest.mark.parametrize("radius", [[400.0, 500.0], [[400.0]]])
+def test_radii_for_other_stations_are_refused(under_wind, radius):
+    with pytest.raises(InvalidInput, match="to be one radius or 1"):
+        flying_range(on_axis(under_wind, 1.0), radius)
+
+
 @pytest.mark.parametrize("radius", [-1.0, float("nan")])
 def test_a_negative_or_missing_radius_is_refused(under_wind, radius):
     with pytest.raises(InvalidInput, match="flying range >= 0 m"):

@@ -11,7 +11,7 @@ from windopt.errors import InvalidInput
 Floats = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Quantiles:
     r"""How sure a forecast is, for one trace or for many.
 

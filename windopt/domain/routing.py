@@ -18,7 +18,7 @@ class Route(NamedTuple):
     turbines: tuple[int, ...]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class RoutingInstance:
     """k stations, n turbines, and the time between them under one wind.
 
@@ -53,10 +53,15 @@ class RoutingInstance:
         for field, array, shape in (
             ("t", self.t, (k, n + 1, n + 1)),
             ("t_max", self.t_max, (k,)),
+            ("w", self.w, (2,)),
             ("allowed", self.allowed, (k, n)),
+            ("airspeed", np.asarray(self.airspeed), (k,) if np.ndim(self.airspeed) else ()),
         ):
             if array.shape != shape:
                 raise InvalidInput(field, f"of shape {shape}", array.shape)
+        for field, limits in ("t_max", self.t_max), ("airspeed", self.airspeed):
+            if not np.all(np.greater(limits, 0)):
+                raise InvalidInput(field, "> 0", limits)
         if np.isnan(self.t).any() or (self.t < 0).any():
             raise InvalidInput("t", ">= 0", "a negative or missing time")
 

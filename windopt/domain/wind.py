@@ -75,7 +75,7 @@ def _velocity(speed: Floats, theta_met: Floats) -> Floats:
     return np.stack([speed * np.cos(theta_pol), speed * np.sin(theta_pol)], axis=-1)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class WindSeries:
     """Measured wind at equal steps; NaN where nothing valid was measured.
 
@@ -181,7 +181,7 @@ class WindSeries:
         return self.part(slice(0, int(np.searchsorted(self.time, time, side="right"))))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class WindForecast:
     """The wind expected over the next steps.
 

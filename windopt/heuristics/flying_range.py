@@ -45,11 +45,14 @@ def flying_range(instance: RoutingInstance, radius: ArrayLike | None = None) -> 
     Raises
     ------
     InvalidInput
-        If a radius is negative or missing.
+        If a radius is negative or missing, or there are others than one or one for each station.
     """
     rho = np.asarray(instance.airspeed * instance.t_max if radius is None else radius, dtype=float)
     if not (rho >= 0.0).all():
         raise InvalidInput("flying range", ">= 0 m", radius)
+    k = len(instance.stations)
+    if rho.shape not in ((), (1,), (k,)):
+        raise InvalidInput("flying range", f"to be one radius or {k}", f"shape {rho.shape}")
     shift = instance.w * instance.t_max[:, None]
     return _circle(instance, instance.stations, rho) & _circle(
         instance, instance.stations + shift, rho
