@@ -1,5 +1,6 @@
 """Yaw plans: certified, checked, and never above rated."""
 
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from math import cos, inf, nan, pi, radians
 
@@ -165,6 +166,16 @@ def test_equal_turbines_are_solved_once(monkeypatch):
     farm = Farm("Many", tuple(Turbine(f"T{i}", 900.0 * i, 0.0) for i in range(165)))
     plan_yaw(farm, Wind.from_met(9.0, 0.0))
     assert len(calls) == 1
+
+
+def test_plans_made_in_several_threads_are_those_made_one_by_one():
+    winds = [Wind.from_met(speed, 90.0) for speed in np.linspace(4.0, 20.0, 40)]
+
+    def planned(wind):
+        return plan_yaw(FARM, wind, nacelle=[0.5, 2.0, 4.0]).found()
+
+    with ThreadPoolExecutor(4) as threads:
+        assert list(threads.map(planned, winds)) == [planned(wind) for wind in winds]
 
 
 def test_further_starts_are_drawn_where_the_bound_is_not_reached(monkeypatch):

@@ -12,6 +12,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from math import isnan, nan, pi, radians, remainder
+from threading import Lock
 from time import perf_counter
 
 import numpy as np
@@ -30,12 +31,17 @@ from windopt.result import Result, Status
 from windopt.solving import nonlinear
 
 METHODS = ("nlp", "algorithm-1")
+POWER_COEFFICIENTS = tuple(MODELS)
+"""C_p models by the names they are chosen by."""
 AIR_DENSITY = 1.065
 """The paper's air density [kg/m3]."""
 GAP = 1e-6
 """Relative distance to its bound at which a plan counts as proved optimal."""
 FURTHER_STARTS = 8
 FEATHERED = 90.0  # deg
+_CASADI = (
+    Lock()
+)  # Its programs keep their last solution, and its references are not counted safely.
 BOUND_SOURCE = "sum over the turbines of min(rated power, 1/2 rho A w^3 C_p,max)"
 
 
@@ -144,9 +150,10 @@ def plan_yaw(
         for turbine, gamma_0 in zip(farm.turbines, misalignments, strict=True)
     ]
     points = {case: case.by_rule() for case in cases}
-    status, reason = Status.FEASIBLE, _verdict(cases)
     if method == "nlp":
         status, reason = _improve(points, begin + time_limit, seed)
+    else:
+        status, reason = Status.FEASIBLE, _verdict(cases)
 
     set_points = tuple(
         _set_point(name, wind, points[case], case.maximum)
@@ -179,7 +186,8 @@ def _improve(points: dict[_Case, OperatingPoint], deadline: float, seed: int) ->
     for case in points:
         if not case.running:
             continue
-        found = _solve(case, deadline, seed)
+        with _CASADI:
+            found = _solve(case, deadline, seed)
         if found.solution is not None:
             points[case] = found.solution
         else:
