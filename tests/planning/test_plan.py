@@ -14,6 +14,9 @@ from windopt.domain.wind import WindSeries
 from windopt.errors import InvalidInput
 from windopt.forecasting.persistence import Persistence
 from windopt.planning.plan import FORECASTERS, plan
+from windopt.planning.routing_methods import METHODS
+from windopt.planning.yaw import plan_yaw
+from windopt.result import Status
 
 FARM = Farm("row", tuple(Turbine(f"T{i}", 600.0 * i, 0.0) for i in range(5)))
 FLEET = Fleet((Station("S1", 1200.0, 300.0),))
@@ -56,6 +59,56 @@ def test_each_step_starts_where_the_nacelles_were_left():
     assert np.ptp(list(nacelles)) < 1e-6
 
 
+STRONG = WindSeries(
+    np.datetime64("2020-03-01") + np.arange(0, 200, 5).astype("m8[m]"),
+    np.full(40, 14.0),
+    np.linspace(0.0, 2.0, 40),
+)
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_no_time_still_gives_a_whole_plan_and_says_so(method):
+    made = plan(FARM, FLEET, STRONG, forecaster="persistence", time_limit=0.0, method=method)
+    assert windopt.check(made).passed
+    assert "not proved shortest" in made.inspection.reason
+    assert made.inspection.runtime < 1.0
+
+
+def test_set_points_and_flights_share_the_time_limit(monkeypatch):
+    limits = []
+
+    def slow(*arguments, time_limit, **options):
+        limits.append(time_limit)
+        return plan_yaw(*arguments, time_limit=time_limit, **options)
+
+    monkeypatch.setattr("windopt.planning.plan.plan_yaw", slow)
+    plan(FARM, FLEET, STRONG, forecaster="persistence", time_limit=20.0)
+    assert len(limits) == 8
+    assert max(limits) <= 10.0
+    assert limits == sorted(limits, reverse=True)
+
+
+def test_ctrl_c_ends_the_whole_plan(monkeypatch):
+    limits = []
+
+    def stopped(*arguments, time_limit, **options):
+        limits.append(time_limit)
+        result = plan_yaw(*arguments, time_limit=time_limit, **options)
+        return replace(result, status=Status.INTERRUPTED) if len(limits) == 2 else result
+
+    monkeypatch.setattr("windopt.planning.plan.plan_yaw", stopped)
+    made = plan(FARM, FLEET, STRONG, forecaster="persistence")
+    assert limits[1] > 0.0
+    assert limits[2:] == [0.0] * 6
+    assert "not proved shortest" in made.inspection.reason
+    assert windopt.check(made).passed
+
+
+def test_thinner_air_delivers_less():
+    thin, thick = (plan(FARM, FLEET, series(), air_density=rho).yaw[0] for rho in (1.0, 1.2))
+    assert thin.objective < thick.objective
+
+
 def test_a_forecaster_of_ones_own_is_taken_as_it_is():
     made = plan(FARM, FLEET, series(), forecaster=Persistence())
     assert made.forecast.method == "persistence"
@@ -73,6 +126,9 @@ def test_flights_are_planned_for_the_mean_wind_of_the_forecast():
         ({"time": np.datetime64("1999-01-01")}, "time"),
         ({"yaw_method": "magic"}, "method"),
         ({"method": "magic"}, "method"),
+        ({"time_limit": -1.0}, "time_limit"),
+        ({"time_limit": np.nan}, "time_limit"),
+        ({"air_density": 0.0}, "air_density"),
     ],
 )
 def test_bad_options_are_named(options, field):

@@ -1,12 +1,14 @@
 """The main job: a measured series in; a forecast, yaw set-points and flights out."""
 
 from collections.abc import Callable, Sequence
+from time import perf_counter
 
 import numpy as np
 
 from windopt.domain.farm import Farm
 from windopt.domain.fleet import Fleet
 from windopt.domain.plan import Plan, SpeedRule, YawPlan
+from windopt.domain.turbine import require_not_negative
 from windopt.domain.wind import WindForecast, WindSeries
 from windopt.errors import InvalidInput
 from windopt.forecasting.autoregression import LinearAutoregression
@@ -15,8 +17,8 @@ from windopt.forecasting.lstm import EdgeForecaster
 from windopt.forecasting.persistence import Persistence
 from windopt.planning.inspection import DEFAULT_METHOD, plan_inspection
 from windopt.planning.routing_methods import Progress
-from windopt.planning.yaw import plan_yaw
-from windopt.result import Result
+from windopt.planning.yaw import AIR_DENSITY, plan_yaw
+from windopt.result import Result, Status
 
 FORECASTERS: dict[str, Callable[[], Forecaster]] = {
     "lstm": EdgeForecaster,
@@ -27,6 +29,9 @@ FORECASTERS: dict[str, Callable[[], Forecaster]] = {
 
 DEFAULT_FORECASTER = "lstm"
 
+YAW_SHARE = 0.5
+"""Share of the time limit that the set-points may use; flights have all that is left of it."""
+
 
 def plan(
     farm: Farm,
@@ -36,6 +41,7 @@ def plan(
     time: np.datetime64 | None = None,
     forecaster: Forecaster | str = DEFAULT_FORECASTER,
     yaw_method: str = "nlp",
+    air_density: float = AIR_DENSITY,
     method: str = DEFAULT_METHOD,
     dwell: float | Sequence[float] = 0.0,
     rule: SpeedRule | str = SpeedRule.EXACT,
@@ -58,8 +64,15 @@ def plan(
         for series of 5 and 10 minutes.
     yaw_method, method
         Methods for set-points and for flights.
-    dwell, rule, gap, time_limit, seed, progress
+    air_density
+        Rho [kg/m3], for the set-points.
+    dwell, rule, gap, progress
         As in :func:`windopt.plan_inspection`, for the flights.
+    time_limit
+        Wall-clock limit of the whole plan [s]. Ctrl-C ends it early: what is left to do is then
+        done in the quickest way.
+    seed
+        Of whatever is drawn at random.
 
     Returns
     -------
@@ -73,9 +86,20 @@ def plan(
         If ``time`` lies outside the series, the series is too short or too full of gaps for the
         forecaster, or a name is unknown.
     """
+    begin = perf_counter()
+    require_not_negative("time_limit", time_limit)
     known = series if time is None else series.until(time)
     forecast = _fitted(forecaster, known).predict(known)
-    yaw = _yaw_steps(farm, forecast, start=_last_direction(known), method=yaw_method, seed=seed)
+    yaw = _yaw_steps(
+        farm,
+        forecast,
+        start=_last_direction(known),
+        deadline=begin + YAW_SHARE * time_limit,
+        method=yaw_method,
+        air_density=air_density,
+        seed=seed,
+    )
+    left = 0.0 if _stopped(yaw) else max(0.0, begin + time_limit - perf_counter())
     inspection = plan_inspection(
         farm,
         fleet,
@@ -84,7 +108,7 @@ def plan(
         dwell=dwell,
         rule=rule,
         gap=gap,
-        time_limit=time_limit,
+        time_limit=left,
         seed=seed,
         progress=progress,
     )
@@ -109,13 +133,32 @@ def _last_direction(known: WindSeries) -> float:
 
 
 def _yaw_steps(
-    farm: Farm, forecast: WindForecast, *, start: float, method: str, seed: int
+    farm: Farm,
+    forecast: WindForecast,
+    *,
+    start: float,
+    deadline: float,
+    method: str,
+    air_density: float,
+    seed: int,
 ) -> tuple[Result[YawPlan], ...]:
     """Set-points for each step, every nacelle starting where the step before left it."""
     nacelle: float | Sequence[float] = start
-    steps = []
+    steps: list[Result[YawPlan]] = []
     for wind in forecast.winds:
-        result = plan_yaw(farm, wind, method=method, nacelle=nacelle, seed=seed)
+        result = plan_yaw(
+            farm,
+            wind,
+            method=method,
+            nacelle=nacelle,
+            air_density=air_density,
+            time_limit=0.0 if _stopped(steps) else max(0.0, deadline - perf_counter()),
+            seed=seed,
+        )
         nacelle = [point.nacelle for point in result.found().set_points]
         steps.append(result)
     return tuple(steps)
+
+
+def _stopped(steps: Sequence[Result[YawPlan]]) -> bool:
+    return any(step.status is Status.INTERRUPTED for step in steps)
