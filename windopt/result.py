@@ -53,6 +53,8 @@ class Result(Generic[Solution]):
         What proves the bound; empty where nothing does.
     reason
         Why there is no solution, or what else the status does not say.
+    asked_gap
+        The gap at which the method was asked to stop [-]; OPTIMAL is a proof to within it.
     """
 
     status: Status
@@ -62,6 +64,7 @@ class Result(Generic[Solution]):
     runtime: float
     bound_source: str = ""
     reason: str = ""
+    asked_gap: float = 0.0
 
     @property
     def gap(self) -> float:
@@ -93,6 +96,7 @@ class Result(Generic[Solution]):
             self.runtime,
             self.bound_source,
             self.reason,
+            self.asked_gap,
         )
 
     def timed(self, runtime: float) -> "Result[Solution]":

@@ -116,11 +116,23 @@ def test_a_longer_dwell_makes_the_flight_too_long():
         ({"bound": 650.0}, "does not bound"),
         ({"bound": float("nan")}, "does not bound"),
         ({"status": Status.OPTIMAL, "bound": -float("inf")}, "without a bound"),
+        ({"status": Status.OPTIMAL}, "called optimal at a gap of 0.0625, asked was one of 0"),
+        ({"status": Status.OPTIMAL, "asked_gap": 0.06}, "asked was one of 0.06"),
+        ({"asked_gap": -1.0}, "cannot have been asked for"),
+        ({"asked_gap": float("nan")}, "cannot have been asked for"),
         ({"status": Status.INFEASIBLE}, "the status is infeasible"),
     ],
 )
 def test_a_broken_promise_is_rejected(changes, sentence):
     assert any(sentence in violation for violation in check(replace(RESULT, **changes)).violations)
+
+
+@pytest.mark.parametrize(
+    "changes", [{"asked_gap": 0.07}, {"bound": 640.0}, {"bound": 640.0 * (1 - 9e-7)}]
+)
+def test_a_proof_to_within_the_gap_asked_for_passes(changes):
+    report = check(replace(RESULT, status=Status.OPTIMAL, **changes))
+    assert report.passed, report.violations
 
 
 def test_a_result_without_a_plan_does_not_pass():

@@ -1,6 +1,7 @@
 """The one door of the checker: any plan, with or without the promises of its result."""
 
 from collections.abc import Iterator
+from itertools import pairwise
 from math import isclose, isfinite, isnan
 from typing import Any
 
@@ -51,10 +52,23 @@ def _promises(result: Result[Any]) -> Iterator[str]:
         yield f"the bound of {result.bound:.9g} does not bound the objective of {value:.9g}"
     if isinstance(plan, YawPlan) and result.bound < most_power(plan) * (1 - TOLERANCE):
         yield f"the bound of {result.bound:.9g} W is below the {most_power(plan):.9g} W possible"
-    if result.status is Status.OPTIMAL and not isfinite(result.bound):
-        yield "the plan is called optimal without a bound"
+    if not result.asked_gap >= 0:
+        yield f"a gap of {result.asked_gap:.3g} cannot have been asked for"
+    if result.status is Status.OPTIMAL:
+        yield from _proof(result)
     if result.status in {Status.INFEASIBLE, Status.NO_SOLUTION}:
         yield f"there is a plan, but the status is {result.status}"
+
+
+def _proof(result: Result[Any]) -> Iterator[str]:
+    """Whether objective and bound meet, as far as was asked."""
+    if not isfinite(result.bound):
+        yield "the plan is called optimal without a bound"
+        return
+    scale = max(abs(result.objective), abs(result.bound))
+    if abs(result.objective - result.bound) > (result.asked_gap + TOLERANCE) * scale:
+        asked = f"asked was one of {result.asked_gap:.3g}"
+        yield f"the plan is called optimal at a gap of {result.gap:.3g}, {asked}"
 
 
 def _check_steps(plan: Plan) -> Report:
@@ -63,6 +77,10 @@ def _check_steps(plan: Plan) -> Report:
     if len(plan.yaw) != len(plan.forecast):
         sentence = f"{len(plan.yaw)} yaw steps for {len(plan.forecast)} steps of the forecast"
         report += Report((sentence,))
+    times = [plan.forecast.issued, *plan.forecast.time]
+    for earlier, later in pairwise(times):
+        if not later > earlier:
+            report += Report((f"the forecast's time {later} is not after {earlier}",))
     for time, wind, yaw in zip(plan.forecast.time, plan.forecast.winds, plan.yaw, strict=False):
         report += _check_result(yaw).about(f"yaw at {time}")
         if yaw.solution and not _same(yaw.solution.wind.velocity, wind.velocity):
