@@ -122,6 +122,23 @@ def test_a_broken_plan_fails_its_check_with_code_1(windopt, folder):
 
 
 @pytest.mark.parametrize(
+    ("command", "edit", "sentence"),
+    [
+        ("yaw", {"power": 1.0}, "power is said to be 1.0"),
+        ("yaw", {"power_baseline": 1.0}, "for every nacelle facing the wind"),
+        ("inspect", {"gap": 0.0}, "gap is said to be 0.0"),
+        ("inspect", {"status": "optimal"}, "called optimal at a gap"),
+    ],
+)
+def test_a_record_edited_by_hand_fails_its_check(windopt, folder, command, edit, sentence):
+    record = json.loads(windopt(command, "farm.csv", *WIND, "--json")[1])
+    (folder / "edited.json").write_text(json.dumps({**record, **edit}), encoding="utf-8")
+    code, _, err = windopt("check", "edited.json")
+    assert code == 1
+    assert sentence in err
+
+
+@pytest.mark.parametrize(
     "options",
     [
         ("--wind-speed", "16", "--wind-direction", "90"),

@@ -150,6 +150,13 @@ def test_a_bound_that_nobody_proved_is_null(result, bound):
     assert back(unproved).bound == bound
 
 
+@pytest.mark.parametrize("gap", [0.05, inf])
+def test_the_gap_asked_for_is_read_back(gap):
+    asked = replace(FLOWN, asked_gap=gap)
+    VALIDATOR.validate(record_of(asked))
+    assert back(asked) == asked
+
+
 @pytest.mark.parametrize("time", ["2011-04-13", "2011-04-13T22", "2011-04-13T22:00:00.125"])
 def test_times_keep_their_resolution(time):
     assert back(replace(WHOLE, time=np.datetime64(time))).time == np.datetime64(time)
@@ -197,6 +204,9 @@ def test_a_plan_with_a_value_that_is_no_number_is_not_written(tmp_path):
         ("inspection", "rule", "guess", "rule to be one of exact, paper"),
         ("inspection", "wind.u", ..., "wind.u to be given"),
         ("inspection", "dwell", {"A1": 1.0}, r'dwell.B "2" to be given'),
+        ("inspection", "dwell.Z9", 1.0, r"dwell.Z9 to name a turbine of the farm"),
+        ("inspection", "unreachable_reasons.A1", "", "A1 to name an unreachable turbine"),
+        ("yaw", "turbines.0.name", "Z9", r"turbines\[0\].name to name a turbine of the farm"),
         ("inspection", "stations.1.x", True, r"stations\[1\].x to be a number, got True"),
         ("inspection", "stations.1.id", "S1", "S1 more than once"),
         ("inspection", "stations.0.uav.t_max", -1, "t_max > 0"),

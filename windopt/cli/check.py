@@ -6,17 +6,21 @@ from typing import Annotated
 
 import typer
 
+from windopt.checking import Report
 from windopt.checking import check as check_plan
 from windopt.cli.options import Json
 from windopt.cli.terminal import complain, note, say
-from windopt.io.plans import read_plan
+from windopt.io.plan_consistency import inconsistencies
+from windopt.io.plan_reader import plan_from_record
+from windopt.io.plans import read_json
 
 PlanFile = Annotated[Path, typer.Argument(metavar="PLAN.json", help="A record that windopt wrote.")]
 
 
 def check(plan: PlanFile, json: Json = False) -> None:
     """Recompute a plan from its farm, fleet and wind, and list every violation."""
-    report = check_plan(read_plan(plan))
+    record = read_json(plan)
+    report = check_plan(plan_from_record(record)) + Report(inconsistencies(record))
     if json:
         told = {
             "passed": report.passed,

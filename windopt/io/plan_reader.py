@@ -1,6 +1,7 @@
 """Records of plans, read back into plans; the counterpart of :mod:`windopt.io.plan_records`."""
 
 import re
+from collections.abc import Collection
 from enum import StrEnum
 from math import inf, radians
 from typing import Any, TypeVar
@@ -20,6 +21,7 @@ from windopt.domain.plan import (
 )
 from windopt.domain.turbine import Turbine, TurbineType
 from windopt.domain.wind import Wind, WindForecast
+from windopt.errors import InvalidInput
 from windopt.io.entries import Entry
 from windopt.io.plan_records import SCHEMA, VERSION
 from windopt.result import Result, Status
@@ -70,7 +72,7 @@ def plan_from_record(document: Any) -> Recorded:
 
 def _result(record: Entry, solution: Solution, unproved: float) -> Result[Solution]:
     """Read an outcome; ``unproved`` is the bound that says nothing."""
-    bound = record.nullable("bound")
+    bound, asked_gap = record.nullable("bound"), record.nullable("asked_gap")
     return Result(
         _choice(record["status"], Status),
         solution,
@@ -79,6 +81,7 @@ def _result(record: Entry, solution: Solution, unproved: float) -> Result[Soluti
         record["runtime"].number,
         record["bound_source"].text,
         record["reason"].text,
+        inf if asked_gap is None else asked_gap.number,
     )
 
 
@@ -93,16 +96,26 @@ def _choice(entry: Entry, choices: type[Choice]) -> Choice:
 
 
 def _inspection(record: Entry, farm: Farm) -> InspectionPlan:
-    reasons = record["unreachable_reasons"]
+    reasons, dwell = record["unreachable_reasons"], record["dwell"]
+    unreachable = record["unreachable"].texts
+    _refuse_others(dwell, farm.names, "to name a turbine of the farm")
+    _refuse_others(reasons, unreachable, "to name an unreachable turbine")
     return InspectionPlan(
         farm,
         Fleet(tuple(_station(entry) for entry in record["stations"])),
         _wind(record["wind"]),
-        tuple(record["dwell"][name].number for name in farm.names),
+        tuple(dwell[name].number for name in farm.names),
         tuple(_flight(entry) for entry in record["flights"]),
-        tuple(Unreachable(name, reasons[name].text) for name in record["unreachable"].texts),
+        tuple(Unreachable(name, reasons[name].text) for name in unreachable),
         _choice(record["rule"], SpeedRule),
     )
+
+
+def _refuse_others(entry: Entry, names: Collection[str], expected: str) -> None:
+    """Refuse keys other than ``names``."""
+    for name, value in entry.items():
+        if name not in names:
+            raise InvalidInput(value.path, expected, repr(name))
 
 
 def _station(entry: Entry) -> Station:
@@ -134,13 +147,15 @@ def _yaw(record: Entry, farm: Farm) -> YawPlan:
     return YawPlan(
         farm,
         _wind(record["wind"]),
-        tuple(_set_point(entry) for entry in record["turbines"]),
+        tuple(_set_point(entry, farm) for entry in record["turbines"]),
         record["power_baseline"].number,
         record["air_density"].number,
     )
 
 
-def _set_point(entry: Entry) -> SetPoint:
+def _set_point(entry: Entry, farm: Farm) -> SetPoint:
+    if entry["name"].text not in farm.names:
+        raise entry["name"].refuse("to name a turbine of the farm")
     return SetPoint(
         entry["name"].text,
         nacelle=radians(entry["yaw"].number),

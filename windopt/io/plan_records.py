@@ -71,6 +71,7 @@ def _outcome(result: Result[Any]) -> Record:
         "objective": float(result.objective),
         "bound": _finite(result.bound),
         "gap": _finite(result.gap),
+        "asked_gap": _finite(result.asked_gap),
         "bound_source": result.bound_source,
         "runtime": _finite(result.runtime),
         "reason": result.reason,

@@ -18,6 +18,7 @@ __all__ = [
     "inspection_record",
     "json_text",
     "plan_record",
+    "read_json",
     "read_plan",
     "record_of",
     "write_plan",
@@ -73,16 +74,26 @@ def read_plan(path: str | Path) -> Recorded:
     InvalidInput
         Naming the file, or the key that is missing or cannot be used.
     """
+    return plan_from_record(read_json(path))
+
+
+def read_json(path: str | Path) -> Any:
+    """Read a JSON file that holds finite numbers only.
+
+    Raises
+    ------
+    InvalidInput
+        Naming the file.
+    """
     path = Path(path)
     try:
-        document = json.loads(path.read_bytes(), parse_constant=_refuse_constant)
+        return json.loads(path.read_bytes(), parse_constant=_refuse_constant)
     except OSError as error:
         raise InvalidInput(str(path), "to be a readable file", error.strerror) from None
     except InvalidInput as error:
         raise InvalidInput(path.name, error.expected, error.got) from None
     except (ValueError, RecursionError) as error:
         raise InvalidInput(path.name, "to be JSON", error) from None
-    return plan_from_record(document)
 
 
 def _refuse_constant(name: str) -> Any:
