@@ -3,12 +3,15 @@
 HiGHS takes the main thread for as long as it runs, and Ctrl-C is delivered seconds late. Here it
 runs beside the main thread, which wakes ten times a second, hears what was found since, and
 passes a Ctrl-C on to HiGHS, which then returns at once. What HiGHS finds is queued and looked at
-in the main thread, because an exception inside one of its callbacks would end the process.
+in the main thread, because an exception inside one of its callbacks would end the process; so
+would a run that is left behind, and however this ends, HiGHS has ended before.
 """
 
-from collections.abc import Callable
+import signal
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from queue import Empty, SimpleQueue
-from threading import Event, Thread
+from threading import Event, Thread, current_thread, main_thread
 from typing import NamedTuple
 
 import highspy
@@ -31,9 +34,46 @@ def run(model: highspy.Highs, hear: Callable[[News], None]) -> bool:
     Parameters
     ----------
     hear
-        Called in this thread with each piece of news; the last may come after the run.
+        Called in this thread with each piece of news; the last may come after the run. What it
+        raises stops the run and reaches the caller.
     """
-    stop, queue = Event(), SimpleQueue[News]()
+    stop, ended = Event(), Event()
+    queue, failures = SimpleQueue[News](), SimpleQueue[BaseException]()
+
+    def work() -> None:
+        try:
+            model.run()
+            highspy.Highs.resetGlobalScheduler(False)  # Threads of HiGHS's own end with this one.
+        except BaseException as failure:
+            failures.put(failure)
+        finally:
+            ended.set()
+
+    thread = Thread(target=work, daemon=True)
+    with _ctrl_c_sets(stop), _listening(model, stop, queue):
+        try:
+            thread.start()
+            while not ended.wait(WAKE):
+                _drain(queue, hear)
+            _drain(queue, hear)
+        except KeyboardInterrupt:
+            stop.set()
+        except BaseException:
+            stop.set()
+            raise
+        finally:
+            while thread.is_alive() and not ended.is_set():
+                with suppress(KeyboardInterrupt):  # of a handler that is not Python's own
+                    ended.wait()  # A join that is interrupted takes the thread for ended.
+    thread.join()
+    if not failures.empty():
+        raise failures.get()
+    return stop.is_set()
+
+
+@contextmanager
+def _listening(model: highspy.Highs, stop: Event, queue: SimpleQueue[News]) -> Iterator[None]:
+    """Let ``model`` queue what it finds, and end its run once ``stop`` is set."""
 
     def interrupt(event: highspy.HighsCallbackEvent) -> None:
         event.interrupt(stop.is_set())
@@ -44,10 +84,6 @@ def run(model: highspy.Highs, hear: Callable[[News], None]) -> bool:
     def report_solution(event: highspy.HighsCallbackEvent) -> None:
         queue.put(News(event.data_out.mip_dual_bound, np.array(event.data_out.mip_solution)))
 
-    def work() -> None:
-        model.run()
-        highspy.Highs.resetGlobalScheduler(False)  # Threads of HiGHS's own end with this one.
-
     listeners = (
         (model.cbSimplexInterrupt, interrupt),
         (model.cbIpmInterrupt, interrupt),
@@ -55,20 +91,27 @@ def run(model: highspy.Highs, hear: Callable[[News], None]) -> bool:
         (model.cbMipInterrupt, report_bound),
         (model.cbMipImprovingSolution, report_solution),
     )
-    for callback, listener in listeners:
-        callback.subscribe(listener)
-    thread = Thread(target=work, daemon=True)
-    thread.start()
-    while thread.is_alive():
-        try:
-            thread.join(WAKE)
-            _drain(queue, hear)
-        except KeyboardInterrupt:
-            stop.set()
-    _drain(queue, hear)
-    for callback, listener in listeners:
-        callback.unsubscribe(listener)
-    return stop.is_set()
+    try:
+        for callback, listener in listeners:
+            callback.subscribe(listener)
+        yield
+    finally:
+        for callback, listener in listeners:
+            callback.unsubscribe(listener)
+
+
+@contextmanager
+def _ctrl_c_sets(stop: Event) -> Iterator[None]:
+    """Let Ctrl-C set ``stop`` where it would raise, so that it cannot come at a wrong moment."""
+    raises = signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    if not raises or current_thread() is not main_thread():
+        yield
+        return
+    signal.signal(signal.SIGINT, lambda *_: stop.set())
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 def _drain(queue: SimpleQueue[News], hear: Callable[[News], None]) -> None:
