@@ -10,12 +10,13 @@ from time import perf_counter
 import highspy
 import numpy as np
 import pytest
+from highspy import HighsModelStatus
 
 from formulations.time_flow import time_flow
 from formulations.tour import tour
 from windopt.errors import InvalidInput
 from windopt.result import Status
-from windopt.solving import solve
+from windopt.solving import integer, solve
 
 HARD = """
 import numpy as np
@@ -66,6 +67,49 @@ def test_nothing_that_keeps_every_row_is_infeasible():
     result = solve(knapsack([3.0, 2.0, 1.0], least=7.0))
     assert result.status is Status.INFEASIBLE
     assert result.solution is None
+    assert result.bound_source == "HiGHS, linear relaxation"
+
+
+def test_what_only_whole_numbers_make_infeasible_is_proved_by_branch_and_cut():
+    program = knapsack([2.0, 2.0, 2.0], least=3.0)
+    program.model.addConstr((2.0 * program.x).sum() <= 3.0)
+    result = solve(program)
+    assert result.status is Status.INFEASIBLE
+    assert result.bound_source == "HiGHS, branch and cut"
+
+
+@dataclass
+class Mistaken:
+    """Answers for HiGHS: calls what it stands for something else, until presolve is off."""
+
+    model: highspy.Highs
+    says: highspy.HighsModelStatus
+
+    def __getattr__(self, name):
+        return getattr(self.model, name)
+
+    def getModelStatus(self):  # noqa: N802
+        _, presolve = self.model.getOptionValue("presolve")
+        return self.model.getModelStatus() if presolve == "off" else self.says
+
+
+def test_a_solution_outweighs_a_claim_that_there_is_none(monkeypatch):
+    program = knapsack([3.0, 2.0, 1.0], least=4.0)
+    monkeypatch.setattr(integer, "RELAXATION_SHARE", 0.0)
+    mistaken = Mistaken(program.model, HighsModelStatus.kInfeasible)
+    result = solve(Knapsack(mistaken, program.x))
+    assert result.status is Status.FEASIBLE
+    assert result.objective == result.solution.sum() == 2.0
+    assert result.bound == -np.inf
+    assert result.bound_source == ""
+    assert "disproves" in result.reason
+
+
+def test_what_presolve_cannot_tell_apart_is_solved_without_it():
+    program = knapsack([3.0, 2.0, 1.0], least=7.0)
+    mistaken = Mistaken(program.model, HighsModelStatus.kUnboundedOrInfeasible)
+    assert solve(Knapsack(mistaken, program.x)).status is Status.INFEASIBLE
+    assert program.model.getOptionValue("presolve")[1] == "choose"
 
 
 def test_a_time_limit_leaves_a_plan_a_bound_and_a_gap(hard):
@@ -99,6 +143,20 @@ def test_a_start_that_breaks_rows_is_dropped():
     result = solve(program, start=start)
     assert result.status is Status.OPTIMAL
     assert len(program.routes(result.solution)[0][1]) == 4
+
+
+def test_what_progress_raises_reaches_the_caller_and_spoils_nothing():
+    t = np.random.default_rng(1).uniform(100, 300, (9, 9))
+    program = time_flow(t, 900.0)
+
+    def fail(*news):
+        raise ZeroDivisionError
+
+    with pytest.raises(ZeroDivisionError):
+        solve(program, progress=fail)
+    again = solve(program)
+    assert again.status is Status.OPTIMAL
+    assert again.objective == pytest.approx(solve(time_flow(t, 900.0)).objective)
 
 
 def test_progress_only_ever_improves(hard):

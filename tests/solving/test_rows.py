@@ -4,7 +4,7 @@ import highspy
 import numpy as np
 import pytest
 
-from windopt.solving.rows import largest_violation, matrix
+from windopt.solving.rows import matrix, rows
 
 
 @pytest.fixture
@@ -32,4 +32,11 @@ def test_the_matrix_holds_the_coefficients(model):
     ],
 )
 def test_the_worst_row_or_bound_counts(model, values, violation):
-    assert largest_violation(model, np.array(values)) == violation
+    assert rows(model.getLp()).largest_violation(np.array(values)) == violation
+
+
+def test_rows_stay_what_they_were_when_the_model_changes(model):
+    before = rows(model.getLp())
+    model.changeColsBounds(2, np.arange(2, dtype=np.int32), np.zeros(2), np.zeros(2))
+    model.changeRowBounds(0, 10.0, 10.0)
+    assert before.largest_violation(np.ones(2)) == 0.0

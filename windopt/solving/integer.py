@@ -10,7 +10,8 @@ fires it), so rows are added between solves, in two stages:
 
 A program with fewer rows has no worse an optimum, so the bound of every solve is valid, and the
 best is kept. A solution is kept only if it breaks no row, left out or not; those that HiGHS
-meets on its way are checked too, so that a limit or Ctrl-C still leaves a plan.
+meets on its way are checked too, so that a limit or Ctrl-C still leaves a plan. It outweighs
+HiGHS: a program that has one is never called infeasible.
 """
 
 from collections.abc import Callable, Iterator
@@ -27,7 +28,7 @@ from numpy.typing import NDArray
 
 from windopt.errors import InvalidInput
 from windopt.result import Result, Status
-from windopt.solving.rows import largest_violation, matrix
+from windopt.solving.rows import rows
 from windopt.solving.watched import News, run
 
 HIGHS = highspy.HighsModelStatus
@@ -118,6 +119,7 @@ class _Search:
     values: NDArray[np.float64] | None = None  # of all columns, at the best solution
     objective: float = inf
     bound: float = -inf
+    stage: str = ""  # of the whole program; none while a start is completed
     proof: str = ""
     shown: tuple[float, float] = (inf, -inf)  # objective and bound last reported
     reason: str = ""
@@ -127,7 +129,8 @@ class _Search:
 
     def __post_init__(self) -> None:
         lp = self.program.model.getLp()
-        self.cost, self.offset = np.asarray(lp.col_cost_), lp.offset_
+        self.cost, self.offset = np.array(lp.col_cost_), lp.offset_
+        self.rows = rows(lp)  # Those added later are of ``cuts``, which is asked anyway.
         self.whole = np.array(
             [kind != highspy.HighsVarType.kContinuous for kind in lp.integrality_]
         )
@@ -140,9 +143,8 @@ class _Search:
         """
         if start is None:
             return
-        model, lp = self.program.model, self.program.model.getLp()
-        column, value = self.column, np.ravel(start).astype(float)
-        lower, upper = np.asarray(lp.col_lower_)[column], np.asarray(lp.col_upper_)[column]
+        model, column, value = self.program.model, self.column, np.ravel(start).astype(float)
+        lower, upper = self.rows.col_lower[column], self.rows.col_upper[column]
         if (value < lower).any() or (value > upper).any():
             return
         model.setOptionValue("solve_relaxation", True)
@@ -153,15 +155,15 @@ class _Search:
         finally:
             model.changeColsBounds(column.size, column, lower, upper)
             model.clearSolver()
-        self.infeasible, self.reason = False, ""
+        self.reason = ""
 
     def relax(self) -> None:
         """Solve the relaxation until it keeps every row or has had its share of the time."""
         model, limit = self.program.model, RELAXATION_SHARE * self.time_limit
+        self.stage = "linear relaxation"
         model.setOptionValue("solve_relaxation", True)
-        lp = model.getLp()
-        tied = np.flatnonzero(abs(matrix(lp)) @ ~self.whole).astype(np.int32)
-        lower, upper = np.asarray(lp.row_lower_)[tied], np.asarray(lp.row_upper_)[tied]
+        tied = np.flatnonzero(abs(self.rows.A) @ ~self.whole).astype(np.int32)
+        lower, upper = self.rows.row_lower[tied], self.rows.row_upper[tied]
         free = np.full(tied.size, inf)
         try:
             model.changeRowsBounds(tied.size, tied, -free, free)
@@ -174,6 +176,7 @@ class _Search:
     def branch(self) -> None:
         """Solve the integer program until its optimum keeps every row."""
         model = self.program.model
+        self.stage = "branch and cut"
         model.setOptionValue("solve_relaxation", False)
         while not self.infeasible:
             if self.values is not None:
@@ -181,7 +184,7 @@ class _Search:
             status = self._run(self.time_limit)
             if status not in (HIGHS.kOptimal, HIGHS.kTimeLimit, HIGHS.kInterrupt):
                 break
-            self._raise_bound(model.getInfo().mip_dual_bound, "branch and cut")
+            self._raise_bound(model.getInfo().mip_dual_bound)
             if status != HIGHS.kOptimal:
                 break
             values = self._rounded(self._values())
@@ -192,7 +195,7 @@ class _Search:
     def result(self) -> Result[NDArray[np.float64]]:
         """Return what is known, in windopt's words."""
         runtime = perf_counter() - self.began
-        if self.infeasible:
+        if self.infeasible and self.values is None:
             return Result(Status.INFEASIBLE, None, inf, inf, runtime, self.proof, self.reason)
         if self.optimal:
             status = Status.OPTIMAL
@@ -201,14 +204,15 @@ class _Search:
         else:
             status = Status.NO_SOLUTION if self.values is None else Status.FEASIBLE
         x = None if self.values is None else self._x(self.values)
+        if self.infeasible:
+            reason = "HiGHS called the program infeasible, which this solution disproves."
+            return Result(status, x, self.objective, -inf, runtime, reason=reason)
         bound = min(self.bound, self.objective)
         return Result(status, x, self.objective, bound, runtime, self.proof, self.reason)
 
     def _relax(self, limit: float) -> None:
         while self._run(limit) == HIGHS.kOptimal:
-            self._raise_bound(
-                self.program.model.getInfo().objective_function_value, "linear relaxation"
-            )
+            self._raise_bound(self.program.model.getInfo().objective_function_value)
             if not self._add_violated(self._values(), limit):
                 break
 
@@ -217,12 +221,25 @@ class _Search:
         model = self.program.model
         if self.interrupted or self._left(limit) <= 0.0:
             return HIGHS.kNotset
-        model.setOptionValue("time_limit", self._left(limit))
-        self.interrupted = run(model, self._hear)
-        status: highspy.HighsModelStatus = model.getModelStatus()
-        self.infeasible |= status == HIGHS.kInfeasible
+        status = self._ending(limit)
+        if status == HIGHS.kUnboundedOrInfeasible:  # Presolve cannot tell which, a solve can.
+            _, presolve = model.getOptionValue("presolve")
+            model.setOptionValue("presolve", "off")
+            try:
+                status = self._ending(limit)
+            finally:
+                model.setOptionValue("presolve", presolve)
+        if status == HIGHS.kInfeasible and self.stage:
+            self.infeasible, self.proof = True, f"HiGHS, {self.stage}"
         if status not in (HIGHS.kOptimal, HIGHS.kTimeLimit, HIGHS.kInterrupt):
             self.reason = f"HiGHS ended with: {model.modelStatusToString(status)}."
+        return status
+
+    def _ending(self, limit: float) -> highspy.HighsModelStatus:
+        """Run HiGHS once, and return what it says of it."""
+        self.program.model.setOptionValue("time_limit", max(0.0, self._left(limit)))
+        self.interrupted |= run(self.program.model, self._hear)
+        status: highspy.HighsModelStatus = self.program.model.getModelStatus()
         return status
 
     def _hear(self, news: News) -> None:
@@ -231,9 +248,9 @@ class _Search:
             self._keep(news.values)
         self._report(news.bound)
 
-    def _raise_bound(self, bound: float, proof: str) -> None:
+    def _raise_bound(self, bound: float) -> None:
         if bound > self.bound:
-            self.bound, self.proof = bound, f"HiGHS, {proof}"
+            self.bound, self.proof = bound, f"HiGHS, {self.stage}"
             self._report(bound)
 
     def _keep(self, values: NDArray[np.float64]) -> bool:
@@ -241,7 +258,7 @@ class _Search:
         values = self._rounded(values)
         if next(self.program.cuts(self._x(values)), None) is not None:
             return False
-        if (violation := largest_violation(self.program.model, values)) > TOLERANCE:
+        if (violation := self.rows.largest_violation(values)) > TOLERANCE:
             self.reason = f"HiGHS returned a solution that breaks a row by {violation:.2g}."
             return False
         objective = float(self.cost @ values) + self.offset

@@ -3,29 +3,40 @@
 HiGHS has called solutions optimal that were not feasible, so none is believed unchecked.
 """
 
+from dataclasses import dataclass
+
 import highspy
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csc_array, csr_array
 
 
-def largest_violation(model: highspy.Highs, values: NDArray[np.float64]) -> float:
-    """Return by how much ``values`` break a row or a bound of ``model`` at worst.
+@dataclass(frozen=True)
+class Rows:
+    """Rows and bounds of columns, copied, so that HiGHS may run while they are looked at."""
 
-    Parameters
-    ----------
-    values
-        Value of every column.
-    """
-    lp = model.getLp()
-    row = matrix(lp) @ values
-    excess = (
-        np.asarray(lp.row_lower_) - row,
-        row - np.asarray(lp.row_upper_),
-        np.asarray(lp.col_lower_) - values,
-        values - np.asarray(lp.col_upper_),
-    )
-    return max(float(e.max(initial=0.0)) for e in excess)
+    A: csr_array[np.float64, tuple[int, int]]
+    row_lower: NDArray[np.float64]
+    row_upper: NDArray[np.float64]
+    col_lower: NDArray[np.float64]
+    col_upper: NDArray[np.float64]
+
+    def largest_violation(self, values: NDArray[np.float64]) -> float:
+        """Return by how much ``values``, one for each column, break a row or a bound at worst."""
+        row = self.A @ values
+        excess = (
+            self.row_lower - row,
+            row - self.row_upper,
+            self.col_lower - values,
+            values - self.col_upper,
+        )
+        return max(float(e.max(initial=0.0)) for e in excess)
+
+
+def rows(lp: highspy.HighsLp) -> Rows:
+    """Return the rows that ``lp`` has now."""
+    limits = lp.row_lower_, lp.row_upper_, lp.col_lower_, lp.col_upper_
+    return Rows(matrix(lp), *(np.array(limit) for limit in limits))
 
 
 def matrix(lp: highspy.HighsLp) -> csr_array[np.float64, tuple[int, int]]:
