@@ -1,17 +1,23 @@
-"""Methods side by side on the same instances, every answer through a check."""
+"""Methods side by side on the same instances, every answer added up anew.
+
+That takes the instance's times for granted, which all methods are given alike; whether they are
+right for a farm and a wind is what :mod:`windopt.checking` asks of a plan.
+"""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from inspect import signature
-from math import isclose
+from math import inf, isclose
+from time import perf_counter
 from typing import Any
 
 from windopt.domain.routing import Route, RoutingInstance
-from windopt.result import Result
+from windopt.result import Result, Status
 from windopt.solving import solve
 
+Routes = tuple[Route, ...]
 Formulation = Callable[..., Any]
-Method = Callable[..., Result[tuple[Route, ...]]]
+Method = Callable[..., Result[Routes]]
 
 
 @dataclass(frozen=True)
@@ -25,12 +31,12 @@ class Row:
     result
         Its routes, with status, objective [s], bound [s] and runtime [s].
     faults
-        What is wrong with the routes, a sentence each.
+        What is wrong with the routes, a sentence each, or the exception in place of routes.
     """
 
     method: str
     instance: str
-    result: Result[tuple[Route, ...]]
+    result: Result[Routes]
     faults: tuple[str, ...]
 
 
@@ -60,13 +66,16 @@ def compare(
     gap: float = 0.0,
     seed: int = 0,
 ) -> Comparison:
-    """Run every method on every instance under one time limit.
+    """Run every method on every instance under one time limit, programs built within it.
+
+    A method that raises an exception has it as its fault and reason, and the others go on.
 
     Parameters
     ----------
     methods
         By name: either a formulation ``f(t, t_max, allowed=...)`` that returns a program with
-        ``routes(x)``, or a method whose first parameter is called ``instance``.
+        ``routes(x)``, or a method ``f(instance, time_limit=..., seed=...)``, whose first parameter
+        is called so; a method with a parameter ``gap`` is given that too.
     instances
         By name, or in order.
     time_limit, gap, seed
@@ -77,31 +86,54 @@ def compare(
         if isinstance(instances, Mapping)
         else {str(number): instance for number, instance in enumerate(instances)}
     )
-    rows = []
-    for title, instance in named.items():
-        for name, method in methods.items():
-            result = _run(method, instance, time_limit=time_limit, gap=gap, seed=seed)
-            rows.append(Row(name, title, result, tuple(faults(instance, result))))
-    return Comparison(tuple(rows))
+    options = {"time_limit": time_limit, "gap": gap, "seed": seed}
+    return Comparison(
+        tuple(
+            _row(name, method, title, instance, options)
+            for title, instance in named.items()
+            for name, method in methods.items()
+        )
+    )
+
+
+def _row(
+    name: str,
+    method: Formulation | Method,
+    title: str,
+    instance: RoutingInstance,
+    options: Mapping[str, Any],
+) -> Row:
+    began = perf_counter()
+    try:
+        result = _run(method, instance, options).timed(perf_counter() - began)
+        return Row(name, title, result, tuple(faults(instance, result)))
+    except Exception as error:  # whatever it is, the rows of the other methods stand
+        fault = f"{type(error).__name__}: {error}"
+        runtime = perf_counter() - began
+        nothing = Result[Routes](Status.NO_SOLUTION, None, inf, -inf, runtime, reason=fault)
+        return Row(name, title, nothing, (fault,))
 
 
 def _run(
-    method: Formulation | Method, instance: RoutingInstance, **options: Any
-) -> Result[tuple[Route, ...]]:
-    if next(iter(signature(method).parameters)) == "instance":
-        del options["gap"]
-        found: Result[tuple[Route, ...]] = method(instance, **options)
+    method: Formulation | Method, instance: RoutingInstance, options: Mapping[str, Any]
+) -> Result[Routes]:
+    parameters = signature(method).parameters
+    if next(iter(parameters), None) == "instance":
+        taken = {k: value for k, value in options.items() if k != "gap" or k in parameters}
+        found: Result[Routes] = method(instance, **taken)
         return found
+    deadline = perf_counter() + options["time_limit"]
     program: Any = method(instance.t, instance.t_max, allowed=instance.allowed)
-    result = solve(program, **options)
+    left = max(0.0, deadline - perf_counter())
+    result = solve(program, **{**options, "time_limit": left})
     if result.solution is None:
         return result
     routes = tuple(Route(d, tuple(turbines)) for d, turbines in program.routes(result.solution))
     return result.carrying(routes)
 
 
-def faults(instance: RoutingInstance, result: Result[tuple[Route, ...]]) -> list[str]:
-    """List what is wrong with a result: visits, durations, its objective and its bound."""
+def faults(instance: RoutingInstance, result: Result[Routes]) -> list[str]:
+    """List what is wrong with visits, durations, objective and bound, by the instance's times."""
     if result.solution is None:
         return []
     found = []
