@@ -107,6 +107,36 @@ def test_nothing_is_overwritten_unless_forced(windopt, folder):
     assert windopt(*command, "--force")[0] == 0
 
 
+@pytest.mark.parametrize("command", ["demo", "plan", "inspect", "yaw"])
+def test_a_folder_that_is_taken_is_refused_before_any_work(windopt, folder, monkeypatch, command):
+    def work(*_, **__):
+        raise AssertionError("planned although the folder is taken")
+
+    for place in "demo.plan", "plan.make_plan", "inspect.plan_inspection", "yaw.plan_yaw":
+        monkeypatch.setattr(f"windopt.cli.{place}", work)
+    (folder / "plan.json").touch()
+    words = {
+        "demo": (),
+        "plan": ("farm.csv", "--wind", "wind.csv"),
+        "inspect": ("farm.csv", *WIND),
+        "yaw": ("farm.csv", *WIND),
+    }
+    code, _, err = windopt(command, *words[command], "--out", ".")
+    assert code == 2
+    assert "--force" in err
+
+
+def test_air_and_rotor_of_a_plan_may_be_chosen(windopt, folder):
+    command = "plan", "farm.csv", "--wind", "wind.csv", "--stations", "1", "--json"
+    options = "--air-density", "1.2", "--power-coefficient", "heier"
+    code, out, _ = windopt(*command, *options)
+    assert code == 0
+    (folder / "record.json").write_text(out, encoding="utf-8")
+    assert windopt("check", "record.json")[0] == 0
+    usual = json.loads(windopt(*command)[1])
+    assert json.loads(out)["yaw"][0]["power"] != usual["yaw"][0]["power"]
+
+
 def test_a_broken_plan_fails_its_check_with_code_1(windopt, folder):
     windopt("inspect", "farm.csv", *WIND, "--out", "out")
     path = folder / "out" / "plan.json"
@@ -163,10 +193,16 @@ BAD = {
     "dwell": ("inspect", "farm.csv", *WIND, "--dwell", "-1"),
     "t_max": ("inspect", "farm.csv", *WIND, "--t-max", "0"),
     "airspeed": ("inspect", "farm.csv", *WIND, "--airspeed", "nan"),
+    "--stations to be a number": ("inspect", "farm.csv", *WIND, "--stations", "²"),
+    "--stations to be a number or": ("inspect", "farm.csv", *WIND, "--stations=--5"),
     "--stations": ("inspect", "farm.csv", *WIND, "--stations", "nowhere.csv"),
     "stations": ("inspect", "farm.csv", *WIND, "--stations", "99"),
     "farm": ("inspect", "Atlantis", *WIND),
     "--time": ("plan", "farm.csv", "--wind", "wind.csv", "--time", "yesterday"),
+    "--time on": ("plan", "farm.csv", "--wind", "wind.csv", "--time", "2020-01-01T12:00+02:00"),
+    "--time like": ("plan", "farm.csv", "--wind", "wind.csv", "--time", "now"),
+    "--time like 2011": ("plan", "farm.csv", "--wind", "wind.csv", "--time", ""),
+    "--out": ("yaw", "farm.csv", *WIND, "--out", "farm.csv"),
     "time": ("plan", "farm.csv", "--wind", "wind.csv", "--time", "1999-01-01"),
     "forecaster": ("plan", "farm.csv", "--wind", "wind.csv", "--forecaster", "magic"),
     "nothing.csv": ("plan", "farm.csv", "--wind", "nothing.csv"),

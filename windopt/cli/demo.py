@@ -6,7 +6,7 @@ import numpy as np
 import typer
 
 from windopt.cli import options as opt
-from windopt.cli.files import write_folder
+from windopt.cli.files import require_free, write_folder
 from windopt.cli.outcome import exit_code, print_record
 from windopt.cli.terminal import note, progress, say, show_plan
 from windopt.io.built_in import built_in_farm, built_in_series, built_in_stations
@@ -27,6 +27,8 @@ def demo(
     force: opt.Force = False,
 ) -> None:
     """Plan the built-in farm Walney in a built-in wind; needs no network and no extra."""
+    folder = out or FOLDER
+    require_free(folder, force=force)
     farm, series = built_in_farm(), built_in_series()
     with progress(f"Planning {farm.name} at {TIME}") as update:
         made = plan(
@@ -44,7 +46,6 @@ def demo(
     else:
         note((*farm.notes, *series.notes))
         show_plan(made)
-    folder = out or FOLDER
     write_folder(made, folder, force=force, series=series)
     if not json:
         say(f"Check it: windopt check {folder / 'plan.json'}")

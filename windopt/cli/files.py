@@ -23,6 +23,26 @@ Picture = Callable[["Axes"], "Axes"]
 Named = tuple[str, Picture]
 
 
+FILES = ("plan.json", "flights.geojson", "forecast.png", "flights.png", "yaw.png")
+
+
+def require_free(folder: Path | None, *, force: bool) -> None:
+    """Refuse a folder that holds files which would be overwritten.
+
+    Raises
+    ------
+    InvalidInput
+        If it does and ``force`` is not given, or if it is a file.
+    """
+    if folder is None:
+        return
+    if folder.exists() and not folder.is_dir():
+        raise InvalidInput("--out", "to be a folder", f"the file {folder}")
+    there = [name for name in FILES if (folder / name).exists()]
+    if there and not force:
+        raise InvalidInput("--out", "to be a folder without them, or --force", ", ".join(there))
+
+
 def write_folder(
     plan: Recorded, folder: Path, *, force: bool, series: WindSeries | None = None
 ) -> None:
@@ -33,21 +53,14 @@ def write_folder(
     InvalidInput
         If a file is already there and ``force`` is not given; then nothing is written.
     """
-    pictures = dict(_pictures(plan, series))
-    _refuse_overwriting(folder, ["plan.json", "flights.geojson", *pictures], force=force)
+    require_free(folder, force=force)
     folder.mkdir(parents=True, exist_ok=True)
     write_plan(plan, folder / "plan.json", force=force)
     written = ["plan.json"]
     if (flights := _flights(plan)) is not None:
         written += _map(flights, folder / "flights.geojson", force=force)
-    written += _draw(pictures, folder, force=force)
+    written += _draw(dict(_pictures(plan, series)), folder, force=force)
     say(f"Written to {folder}: {', '.join(written)}.")
-
-
-def _refuse_overwriting(folder: Path, names: list[str], *, force: bool) -> None:
-    there = [name for name in names if (folder / name).exists()]
-    if there and not force:
-        raise InvalidInput("--out", "to be a folder without them, or --force", ", ".join(there))
 
 
 def _flights(plan: Recorded) -> InspectionPlan | None:

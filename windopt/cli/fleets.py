@@ -21,11 +21,18 @@ def fleet(farm: Farm, stations: str, uav: Uav, *, dwell: float, seed: int) -> Fl
     """
     if not stations:
         return _by_default(farm, uav, dwell=dwell, seed=seed)
-    if stations.lstrip("-").isdigit():
-        return stations_by_k_means(farm, int(stations), uav=uav, dwell=dwell, seed=seed)
+    if (count := _number(stations)) is not None:
+        return stations_by_k_means(farm, count, uav=uav, dwell=dwell, seed=seed)
     if not Path(stations).exists():
         raise InvalidInput("--stations", "to be a number or a file that exists", stations)
     return read_stations(stations, farm, uav=uav)
+
+
+def _number(text: str) -> int | None:
+    try:
+        return int(text)
+    except ValueError:
+        return None
 
 
 def _by_default(farm: Farm, uav: Uav, *, dwell: float, seed: int) -> Fleet:

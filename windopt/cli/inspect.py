@@ -3,7 +3,7 @@
 import typer
 
 from windopt.cli import options as opt
-from windopt.cli.files import write_folder
+from windopt.cli.files import require_free, write_folder
 from windopt.cli.fleets import fleet
 from windopt.cli.outcome import exit_code, print_record
 from windopt.cli.terminal import note, progress, show_inspection
@@ -33,6 +33,7 @@ def inspect(
     force: opt.Force = False,
 ) -> None:
     """Plan flights that inspect every turbine within reach in the least total time."""
+    require_free(out, force=force)
     wind = Wind.from_met(wind_speed, wind_direction)
     uav = Uav(FALCON_8.name, airspeed, t_max, wind_max, ground_speed_cap)
     site = Farm.load(farm)

@@ -8,6 +8,7 @@ import typer
 from windopt.planning.plan import FORECASTERS
 from windopt.planning.routing_methods import METHODS
 from windopt.planning.yaw import METHODS as YAW_METHODS
+from windopt.planning.yaw import POWER_COEFFICIENTS
 
 FarmName = Annotated[
     str,
@@ -58,5 +59,9 @@ Out = Annotated[
 ]
 Force = Annotated[bool, typer.Option("--force", help="Overwrite files that exist.")]
 PowerCoefficient = Annotated[
-    str | None, typer.Option(help="C_p model: slootweg, heier, mathworks or dai.")
+    str | None,
+    typer.Option(
+        help=f"C_p model, one of {', '.join(POWER_COEFFICIENTS)}; by default the farm's own."
+    ),
 ]
+AirDensity = Annotated[float, typer.Option(help="Air density [kg/m3].")]

@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from windopt.cli import options as opt
-from windopt.cli.files import write_folder
+from windopt.cli.files import require_free, write_folder
 from windopt.cli.fleets import fleet
 from windopt.cli.outcome import exit_code, print_record
 from windopt.cli.terminal import note, progress, show_plan
@@ -17,6 +17,7 @@ from windopt.domain.wind import WindSeries
 from windopt.planning.inspection import DEFAULT_METHOD
 from windopt.planning.plan import DEFAULT_FORECASTER
 from windopt.planning.plan import plan as make_plan
+from windopt.planning.yaw import AIR_DENSITY
 
 WindFile = Annotated[
     Path, typer.Option("--wind", help="CSV file with time, speed and direction, or WIND Toolkit's.")
@@ -30,6 +31,8 @@ def plan(
     stations: opt.Stations = "",
     forecaster: opt.ForecasterName = DEFAULT_FORECASTER,
     yaw_method: opt.YawMethod = "nlp",
+    air_density: opt.AirDensity = AIR_DENSITY,
+    power_coefficient: opt.PowerCoefficient = None,
     method: opt.RoutingMethod = DEFAULT_METHOD,
     dwell: opt.Dwell = 0.0,
     rule: opt.Rule = "exact",
@@ -48,9 +51,12 @@ def plan(
     force: opt.Force = False,
 ) -> None:
     """Forecast the wind, set the turbines for each step ahead and plan the flights."""
+    require_free(out, force=force)
     series = WindSeries.read(wind, time=time_column, speed=speed_column, direction=direction_column)
     uav = Uav(FALCON_8.name, airspeed, t_max, wind_max, ground_speed_cap)
     site = Farm.load(farm)
+    if power_coefficient is not None:
+        site = site.with_power_coefficient(power_coefficient)
     note((*site.notes, *series.notes))
     based = fleet(site, stations, uav, dwell=dwell, seed=seed)
     with progress(f"Planning {site.name}") as update:
@@ -61,6 +67,7 @@ def plan(
             time=parsed(time),
             forecaster=forecaster,
             yaw_method=yaw_method,
+            air_density=air_density,
             method=method,
             dwell=dwell,
             rule=rule,

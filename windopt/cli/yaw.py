@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from windopt.cli import options as opt
-from windopt.cli.files import write_folder
+from windopt.cli.files import require_free, write_folder
 from windopt.cli.outcome import exit_code, print_record
 from windopt.cli.terminal import note, progress, show_yaw
 from windopt.domain.farm import Farm
@@ -17,7 +17,6 @@ Nacelle = Annotated[
     float | None,
     typer.Option(help="Where every nacelle faces now [deg]; by default into the wind."),
 ]
-AirDensity = Annotated[float, typer.Option(help="Air density [kg/m3].")]
 
 
 def yaw(
@@ -26,7 +25,7 @@ def yaw(
     wind_direction: opt.WindDirection,
     method: opt.YawMethod = "nlp",
     nacelle: Nacelle = None,
-    air_density: AirDensity = AIR_DENSITY,
+    air_density: opt.AirDensity = AIR_DENSITY,
     power_coefficient: opt.PowerCoefficient = None,
     time_limit: opt.TimeLimit = 60.0,
     seed: opt.Seed = 0,
@@ -35,6 +34,7 @@ def yaw(
     force: opt.Force = False,
 ) -> None:
     """Set every turbine's yaw, pitch and tip-speed ratio for the most power up to rated."""
+    require_free(out, force=force)
     wind = Wind.from_met(wind_speed, wind_direction)
     site = Farm.load(farm)
     if power_coefficient is not None:
