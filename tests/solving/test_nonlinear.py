@@ -10,6 +10,7 @@ import casadi as ca
 import numpy as np
 import pytest
 
+from windopt.errors import InvalidInput
 from windopt.result import Status
 from windopt.solving import nonlinear, solve
 
@@ -101,6 +102,16 @@ def test_no_time_is_no_solution():
     result = solve(two_valleys(), time_limit=0.0)
     assert result.status is Status.NO_SOLUTION
     assert "time limit" in result.reason
+
+
+@pytest.mark.parametrize("limit", [-1.0, np.nan])
+def test_a_time_limit_that_means_nothing_is_refused(limit):
+    with pytest.raises(InvalidInput, match="time_limit"):
+        solve(two_valleys(), time_limit=limit)
+
+
+def test_a_deadline_that_has_passed_leaves_no_time():
+    assert nonlinear.solve(two_valleys(), time_limit=-1.0).status is Status.NO_SOLUTION
 
 
 def test_a_time_limit_is_kept_and_leaves_a_feasible_point():

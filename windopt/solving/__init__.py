@@ -2,10 +2,11 @@
 
 from typing import Any
 
+from windopt.errors import InvalidInput
 from windopt.result import Result
 
 
-def solve(program: Any, **options: Any) -> Result[Any]:
+def solve(program: Any, *, time_limit: float = 60.0, **options: Any) -> Result[Any]:
     """Solve a program of :mod:`formulations`, whatever its kind.
 
     Integer programs carry a HiGHS ``model`` and go to :func:`windopt.solving.integer.solve`; the
@@ -15,15 +16,24 @@ def solve(program: Any, **options: Any) -> Result[Any]:
     ----------
     program
         What a function of :mod:`formulations` returned, with rows of your own or without.
+    time_limit
+        Wall-clock limit [s].
     options
-        Options of the solver, as documented there.
+        Further options of the solver, as documented there.
+
+    Raises
+    ------
+    InvalidInput
+        If ``time_limit`` is negative or missing, or as the solver does.
     """
+    if not time_limit >= 0.0:
+        raise InvalidInput("time_limit", ">= 0", time_limit)
     if hasattr(program, "model"):
         from windopt.solving import integer
 
-        result: Result[Any] = integer.solve(program, **options)
+        result: Result[Any] = integer.solve(program, time_limit=time_limit, **options)
     else:
         from windopt.solving import nonlinear
 
-        result = nonlinear.solve(program, **options)
+        result = nonlinear.solve(program, time_limit=time_limit, **options)
     return result

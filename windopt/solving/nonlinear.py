@@ -66,7 +66,7 @@ def solve(
         Values of ``program.x`` to search from, one after the other; the best solution counts.
         Empty: the initial guess that the program was given.
     time_limit
-        Wall-clock limit over all starts [s].
+        Wall-clock limit over all starts [s]; a deadline that has passed leaves 0 or less.
     max_iter
         Limit of iterations from each start.
 
@@ -78,7 +78,7 @@ def solve(
     best = _none(Status.NO_SOLUTION, REASONS["Maximum_WallTime_Exceeded"])
     for start in starts or (None,):
         left = begin + time_limit - perf_counter()
-        if left <= 0:
+        if not left > 0:
             break
         try:
             found = _search(program, start, left, max_iter)
