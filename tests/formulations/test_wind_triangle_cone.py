@@ -8,18 +8,18 @@ from formulations.wind_triangle import ground_speed
 from formulations.wind_triangle_cone import wind_triangle_cone
 
 U_MAX = 16.0
-# Clarabel ends at relative residuals of 1e-8, of sums of 500 speeds; near the edge of the cone,
-# where the wind is almost as fast as the UAV, that is up to a few 1e-6 m/s on a single leg.
+# Clarabel ends at relative residuals of 1e-8, of sums of 2000 speeds; the worst single leg was off
+# by 8e-6 m/s, in calm air.
 TOLERANCE = 2e-5  # m/s
 
 
 @pytest.mark.parametrize("cap", [True, False])
 @pytest.mark.parametrize("speed", [0.0, 5.0, 10.0, 15.0, 15.9])
-def test_closed_form_solves_the_cone_program_on_500_random_legs(speed, cap):
+def test_closed_form_solves_the_cone_program_on_2000_random_legs(speed, cap):
     rng = np.random.default_rng(int(10 * speed))
     angle = rng.uniform(0, 2 * np.pi)
     w = speed * np.array([np.cos(angle), np.sin(angle)])
-    d = rng.normal(scale=3000.0, size=(500, 2))
+    d = rng.normal(scale=3000.0, size=(2000, 2))
     program = wind_triangle_cone(d, w, U_MAX, cap=cap)
     program.problem.solve(solver=cp.CLARABEL)
     worst = np.abs(program.s.value - ground_speed(d, w, U_MAX, cap=cap)).max()
