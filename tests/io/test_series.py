@@ -139,6 +139,26 @@ def test_offsets_are_brought_to_utc(write):
     assert CLOCK_NOTE not in series.notes
 
 
+@pytest.mark.parametrize("zone", ["UTC", " UTC", "GMT", " GMT", "Z", "+00:00"])
+def test_stamps_may_name_their_zone(write, zone):
+    rows = [f"2020-06-01 0{hour}:00{zone},5,0" for hour in range(4)]
+    series = read_series(write(table(*rows)))
+    assert series.timezone == "UTC"
+    assert series.time[0] == np.datetime64("2020-06-01T00:00")
+
+
+def test_zones_of_their_own_are_brought_to_utc_row_by_row(write):
+    clocks = "00:00 UTC", "02:00+01:00", "04:00+02:00", "03:00 GMT"
+    series = read_series(write(table(*(f"2020-06-01 {clock},5,0" for clock in clocks))))
+    assert (np.diff(series.time) == np.timedelta64(1, "h")).all()
+
+
+def test_stamps_with_and_without_a_zone_name_do_not_mix(write):
+    rows = [f"2020-06-01 0{h}:00{zone},5,0" for h, zone in enumerate((" UTC", "", "", ""))]
+    with pytest.raises(InvalidInput, match="to have an offset like the others"):
+        read_series(write(table(*rows)))
+
+
 def test_stamps_with_and_without_offset_do_not_mix(write):
     rows = [
         "2020-01-01T00:00Z,5,0",

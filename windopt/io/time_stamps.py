@@ -1,6 +1,7 @@
 """Time stamps: texts in, NumPy times on one clock out.
 
-Stamps that carry an offset are brought to UTC; others stay on their own clock, whatever it is.
+Stamps that carry an offset, UTC or GMT are brought to UTC; others stay on their own clock,
+whatever it is.
 """
 
 from collections.abc import Sequence
@@ -32,7 +33,7 @@ def parse_times(column: Column) -> tuple[Times, str]:
     stamps: list[datetime] = []
     for row, cell in enumerate(column.cells):
         try:
-            stamps.append(datetime.fromisoformat(cell.removesuffix("UTC").removesuffix("GMT")))
+            stamps.append(_stamp(cell))
         except ValueError:
             raise column.refuse(row, FORMAT) from None
     aware = [stamp.tzinfo is not None for stamp in stamps]
@@ -41,10 +42,17 @@ def parse_times(column: Column) -> tuple[Times, str]:
             odd = aware.index(not aware[0])
             raise column.refuse(odd, "to have an offset like the others, or none")
         stamps = [stamp.astimezone(UTC).replace(tzinfo=None) for stamp in stamps]
-    utc = any(aware) or column.cells[0].endswith(("UTC", "GMT")) or "utc" in column.name.lower()
+    utc = any(aware) or "utc" in column.name.lower()
     times = np.array(stamps, dtype="datetime64[us]")
     whole = times.astype("datetime64[s]")
     return whole if (whole == times).all() else times, "UTC" if utc else ""
+
+
+def _stamp(text: str) -> datetime:
+    bare = text.removesuffix("UTC").removesuffix("GMT")
+    if bare == text:
+        return datetime.fromisoformat(text)
+    return datetime.fromisoformat(f"{bare.rstrip()}+00:00")
 
 
 def times_of_parts(parts: Sequence[Column]) -> Times:
