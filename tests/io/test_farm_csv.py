@@ -69,6 +69,12 @@ def test_a_crs_column_is_kept(write):
         farm_from_csv(write("name,x,y,crs\nA,1,2,30U\nB,1,3,31U\n"))
 
 
+def test_a_crs_column_beside_degrees_is_noted(write):
+    farm = farm_from_csv(write("name,lon,lat,crs\nA,3,54,EPSG:4326\n"))
+    assert farm.crs == "EPSG:32631"
+    assert any("crs" in note and "EPSG:32631" in note for note in farm.notes)
+
+
 @pytest.mark.parametrize(
     ("text", "complaint"),
     [
@@ -83,9 +89,11 @@ def test_a_crs_column_is_kept(write):
         ("name,x,y\nA,1,2\nB,1\n", "line 3 to have 3 cells, got 2"),
         ("name,x,x,y\nA,1,2,3\n", "one column 'x'"),
         ("name,x,y\nA,1,2\nA,2,2\n", "A more than once"),
-        ("name,x,y\n,1,2\n", "turbine name"),
+        ("name,x,y\n,1,2\n", "'name' in line 2 to be a name"),
         ("name,lon,lat\nA,200,2\n", "within 180"),
-        ("name,x,y,rated_power_mw\nA,1,2,0\n", "rated_power > 0"),
+        ("name,x,y,rated_power_mw\nA,1,2,0\n", "'rated_power_mw' in line 2 > 0 MW"),
+        ("name,x,y,rated_power_mw\nA,1,2,-3\n", "> 0 MW, got '-3'"),
+        ("name,x,y,crs\nA,1,2,30U\nB,1,3,31U\n", "'crs' in line 3 to be the same"),
         (b"name,x,y\nA,1,\x00", "a text file"),
         (gzip.compress(b"name,x,y\nA,1,2\n" * 99)[:-9], "readable file"),
     ],

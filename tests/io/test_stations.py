@@ -50,9 +50,10 @@ def test_degrees_need_a_farm_whose_system_is_known(write, farm):
         ("x,y\n1,2\n", "a column id"),
         ("id,x\nS1,2\n", "x and y, or lon and lat"),
         ("id,x,y\nS1,1,2\nS1,3,4\n", "S1 more than once"),
-        ("id,x,y\n,1,2\n", "station name"),
+        ("id,x,y\n,1,2\n", "'id' in line 2 to be a name"),
         ("id,x,y\nS1,1,far\n", "'y' in line 2"),
-        ("id,x,y,t_max\nS1,1,2,-3\n", "Expected t_max > 0, got -3"),
+        ("id,x,y,t_max\nS1,1,2,-3\n", "'t_max' in line 2 > 0 s, got '-3'"),
+        ("id,x,y,airspeed\nS1,1,2,\nS2,3,4,0\n", "'airspeed' in line 3 > 0 m/s, got '0'"),
         ("id,x,y,airspeed\nS1,1,2,fast\n", "'airspeed' in line 2"),
     ],
 )

@@ -43,6 +43,12 @@ class Column:
         shown = repr(cell if len(cell) <= 40 else cell[:40] + "...")
         return InvalidInput(f"{self.name!r} in line {self.lines[row]}", expected, shown)
 
+    def names(self) -> list[str]:
+        """Return the cells, none of which may be empty."""
+        if "" in self.cells:
+            raise self.refuse(self.cells.index(""), "to be a name")
+        return list(self.cells)
+
     def numbers(self, *, missing: bool = False) -> NDArray[np.float64]:
         """Return the cells as finite numbers, or NaN where ``missing`` ones are allowed."""
         texts = self.cells
@@ -56,6 +62,13 @@ class Column:
         wrong = np.isinf(numbers) if missing else ~np.isfinite(numbers)
         if wrong.any():
             raise self.refuse(int(wrong.argmax()), "to be a finite number")
+        return numbers
+
+    def positive(self, unit: str, *, missing: bool = False) -> NDArray[np.float64]:
+        """Return the cells as positive numbers; ``unit`` is for the complaint."""
+        numbers = self.numbers(missing=missing)
+        if (numbers <= 0).any():
+            raise self.refuse(int((numbers <= 0).argmax()), f"> 0 {unit}")
         return numbers
 
 

@@ -4,11 +4,12 @@ from pathlib import Path
 
 from windopt.domain.farm import Farm
 from windopt.domain.turbine import Turbine
-from windopt.errors import InvalidInput
 from windopt.io.coordinates import projected_crs
 from windopt.io.positions import Positions, read_positions
 from windopt.io.turbine_names import distinct_names
 from windopt.io.turbine_types import types_by_rating
+
+CRS_NOTE = "The column crs is for metres and is not used; longitude and latitude became {}."
 
 
 def farm_from_csv(path: str | Path) -> Farm:
@@ -31,23 +32,29 @@ def farm_from_csv(path: str | Path) -> Farm:
     n = len(table.x)
     names, name_notes = distinct_names([None] * n)
     if "name" in table.columns:
-        names, name_notes = list(table.columns["name"].cells), ()
+        names, name_notes = table.columns["name"].names(), ()
     ratings: list[float | None] = [None] * n
     if "rated_power_mw" in table.columns:
-        ratings = [1e6 * power for power in table.columns["rated_power_mw"].numbers().tolist()]
+        ratings = (1e6 * table.columns["rated_power_mw"].positive("MW")).tolist()
     types, type_notes = types_by_rating(ratings)
+    crs = table.crs or _crs(table)
+    crs_notes = (CRS_NOTE.format(crs),) if table.crs and "crs" in table.columns else ()
     return Farm(
         path.stem,
         tuple(map(Turbine, names, table.x.tolist(), table.y.tolist(), types)),
-        crs=table.crs or _crs(table),
+        crs=crs,
         source=str(path),
-        notes=(*name_notes, *type_notes),
+        notes=(*name_notes, *type_notes, *crs_notes),
     )
 
 
 def _crs(table: Positions) -> str | None:
     """Return the one CRS that the rows give, if any does."""
-    given = sorted(set(table.columns["crs"].cells) - {""}) if "crs" in table.columns else []
-    if len(given) > 1:
-        raise InvalidInput("crs", "to be the same in each row", ", ".join(given[:5]))
-    return projected_crs(given[0]) if given else None
+    if "crs" not in table.columns:
+        return None
+    column = table.columns["crs"]
+    given = next(filter(None, column.cells), "")
+    for row, cell in enumerate(column.cells):
+        if cell not in ("", given):
+            raise column.refuse(row, f"to be the same in each row, {given!r}")
+    return projected_crs(given) if given else None

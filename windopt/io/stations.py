@@ -11,7 +11,7 @@ from windopt.errors import InvalidInput
 from windopt.io.positions import read_positions
 from windopt.io.whole_files import write_whole
 
-LIMITS = ("airspeed", "t_max", "wind_max")
+LIMITS = {"airspeed": "m/s", "t_max": "s", "wind_max": "m/s"}
 
 
 def read_stations(path: str | Path, farm: Farm | None = None, *, uav: Uav = FALCON_8) -> Fleet:
@@ -40,12 +40,12 @@ def read_stations(path: str | Path, farm: Farm | None = None, *, uav: Uav = FALC
     if "id" not in table.columns:
         raise InvalidInput(Path(path).name, "to have a column id", "none")
     limits = {
-        name: table.columns[name].numbers(missing=True).tolist()
-        for name in LIMITS
+        name: table.columns[name].positive(unit, missing=True).tolist()
+        for name, unit in LIMITS.items()
         if name in table.columns
     }
     stations = []
-    for i, name in enumerate(table.columns["id"].cells):
+    for i, name in enumerate(table.columns["id"].names()):
         own = {limit: values[i] for limit, values in limits.items() if values[i] == values[i]}
         station = Station(name, float(table.x[i]), float(table.y[i]), replace(uav, **own))
         stations.append(station)
