@@ -53,13 +53,24 @@ def test_an_unknown_name_lists_those_that_come_close(name, hint):
         load_farm(name)
 
 
+def without(monkeypatch, module):
+    def repository():
+        raise ModuleNotFoundError(f"No module named {module!r}", name=module)
+
+    monkeypatch.setattr(optiwindnet, "_repository", repository)
+
+
 def test_without_optiwindnet_the_extra_is_named(monkeypatch):
-    monkeypatch.setitem(sys.modules, "optiwindnet.importer", None)
-    optiwindnet._repository.cache_clear()
+    without(monkeypatch, "optiwindnet")
     with pytest.raises(MissingExtra, match=r"'Thanet' needs an extra.*windopt\[farms\]"):
         load_farm("Thanet")
     assert len(load_farm("walney")) == 189
-    optiwindnet._repository.cache_clear()
+
+
+def test_a_broken_optiwindnet_is_not_taken_for_a_missing_one(monkeypatch):
+    without(monkeypatch, "networkx")
+    with pytest.raises(ModuleNotFoundError, match="networkx"):
+        load_farm("Thanet")
 
 
 def test_loading_a_farm_does_not_load_the_solver_that_clashes_with_highs():

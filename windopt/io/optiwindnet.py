@@ -49,7 +49,9 @@ def optiwindnet_farm(name: str, also_known: Iterable[str] = ()) -> Farm:
     """
     try:
         repository = _repository()
-    except ImportError:
+    except ModuleNotFoundError as missing:
+        if missing.name != "optiwindnet":
+            raise
         raise MissingExtra(f"The farm {name!r}", "farms") from None
     names: dict[str, Any] = {}
     for graph in repository:
