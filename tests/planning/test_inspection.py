@@ -168,3 +168,11 @@ def test_kriegers_flak_b_is_never_planned_below_its_optimum():
         result = plan_inspection(site, fleet(*places), EAST_WIND, method=method)
         assert 8349.04 <= result.objective <= 1.15 * 8349.04
         assert result.bound <= 8349.05
+
+
+@pytest.mark.parametrize("method", ["time-flow", "route-indexed"])
+def test_a_gap_that_was_asked_for_is_recorded_and_kept(method):
+    result = plan_inspection(farm(9), TWO, EAST_WIND, method=method, gap=0.3)
+    assert result.status is Status.OPTIMAL
+    assert result.gap <= result.asked_gap == 0.3
+    assert windopt.check(result).passed

@@ -15,7 +15,7 @@ HiGHS: a program that has one is never called infeasible.
 """
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import takewhile
 from math import inf
 from time import perf_counter
@@ -105,7 +105,7 @@ def solve(
         search.branch()
     except KeyboardInterrupt:
         search.interrupted = True
-    return search.result()
+    return replace(search.result(), asked_gap=gap)
 
 
 @dataclass
