@@ -53,6 +53,16 @@ def test_no_heuristic_beats_the_proven_optimum(seed):
         assert result.bound <= optimum.objective * (1 + 1e-6)
 
 
+@pytest.mark.parametrize("seed", range(5))
+def test_tours_cut_by_the_papers_rule_are_never_shorter(seed):
+    tight = fleet((1000.0, 1000.0), (3000.0, 3000.0), uav=Uav(t_max=700.0))
+    published, optimal = (
+        plan_inspection(farm(9, seed=seed), tight, EAST_WIND, method=method).objective
+        for method in ("algorithm-2-as-published", "algorithm-2")
+    )
+    assert published >= optimal * (1 - 1e-9)
+
+
 def test_dwell_is_counted_once_for_each_turbine():
     short = plan_inspection(farm(), CENTRE, EAST_WIND, method="time-flow")
     long = plan_inspection(farm(), CENTRE, EAST_WIND, method="time-flow", dwell=1.0)

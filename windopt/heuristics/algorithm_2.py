@@ -16,10 +16,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from windopt.domain.routing import Route, RoutingInstance
 from windopt.heuristics.flying_range import flying_range as range_under_wind
-from windopt.heuristics.placement import nearest_stations
-from windopt.heuristics.reassignment import reassign
 from windopt.heuristics.splitting import Split, split_optimally
-from windopt.heuristics.tours import fly_tours
+from windopt.heuristics.tours import fly_within
 from windopt.result import Result
 
 
@@ -58,14 +56,5 @@ def algorithm_2(
     InvalidInput
         If no UAV can inspect a turbine and be back in time, or a radius is negative.
     """
-    N = nearest_stations(instance) if assigned is None else assigned
     Z = range_under_wind(instance, flying_range) & instance.reachable
-    N_hat = reassign(instance, N, Z)
-    return fly_tours(
-        instance,
-        N_hat,
-        split=split,
-        time_limit=time_limit,
-        seed=seed,
-        moved=int(np.count_nonzero(N_hat != N)),
-    )
+    return fly_within(instance, Z, assigned=assigned, split=split, time_limit=time_limit, seed=seed)

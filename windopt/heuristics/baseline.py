@@ -8,10 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from windopt.domain.routing import Route, RoutingInstance
-from windopt.heuristics.placement import nearest_stations
-from windopt.heuristics.reassignment import reassign
 from windopt.heuristics.splitting import Split, split_optimally
-from windopt.heuristics.tours import fly_tours
+from windopt.heuristics.tours import fly_within
 from windopt.result import Result
 
 
@@ -45,13 +43,5 @@ def baseline(
     InvalidInput
         If no UAV can inspect a turbine and be back in time.
     """
-    N = nearest_stations(instance) if assigned is None else assigned
-    flown = reassign(instance, N, instance.reachable)
-    return fly_tours(
-        instance,
-        flown,
-        split=split,
-        time_limit=time_limit,
-        seed=seed,
-        moved=int(np.count_nonzero(flown != N)),
-    )
+    Z = instance.reachable
+    return fly_within(instance, Z, assigned=assigned, split=split, time_limit=time_limit, seed=seed)

@@ -1,4 +1,7 @@
-"""Algorithm 2, lines 11-13: for each UAV the shortest tour of its turbines, split into flights."""
+"""From ranges to flights: who inspects what, in which tour, and where that is split.
+
+Algorithm 2 from line 4 on, and what its baseline shares with it.
+"""
 
 from collections.abc import Sequence
 from time import perf_counter
@@ -8,12 +11,40 @@ from numpy.typing import NDArray
 
 from formulations.tour import tour
 from windopt.domain.routing import Route, RoutingInstance
+from windopt.heuristics.placement import nearest_stations
+from windopt.heuristics.reassignment import reassign
 from windopt.heuristics.relaxation import NAME, least_total_time
 from windopt.heuristics.splitting import Split
 from windopt.result import Result, Status
 from windopt.solving.integer import solve
 
 TIE = 1e-9  # Difference between objective and bound that is rounding, as a fraction.
+
+
+def fly_within(
+    instance: RoutingInstance,
+    Z: NDArray[np.bool_],
+    *,
+    assigned: NDArray[np.intp] | None,
+    split: Split,
+    time_limit: float,
+    seed: int,
+) -> Result[tuple[Route, ...]]:
+    """Reassign the turbines outside their UAVs' ranges, then fly each UAV's tour.
+
+    Parameters
+    ----------
+    Z
+        Whether UAV i may take turbine k, shape ``(k, n)``.
+    assigned
+        The UAV of each turbine before that, shape ``(n,)``; the nearest for ``None``.
+    split, time_limit, seed
+        As in :func:`fly_tours`.
+    """
+    N = nearest_stations(instance) if assigned is None else assigned
+    N_hat = reassign(instance, N, Z)
+    moved = int(np.count_nonzero(N_hat != N))
+    return fly_tours(instance, N_hat, split=split, time_limit=time_limit, seed=seed, moved=moved)
 
 
 def fly_tours(
@@ -25,7 +56,7 @@ def fly_tours(
     seed: int,
     moved: int = 0,
 ) -> Result[tuple[Route, ...]]:
-    """Find the shortest tour of each UAV through its turbines and split it into flights.
+    """Find the shortest tour of each UAV through its turbines and split it, lines 11-13.
 
     Parameters
     ----------

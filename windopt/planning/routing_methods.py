@@ -5,6 +5,7 @@ The formulations begin with Algorithm 2's plan, so that a limit never leaves the
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from time import perf_counter
 from typing import Any, Protocol
 
@@ -13,6 +14,7 @@ from formulations.time_flow import TimeFlow, time_flow
 from windopt.domain.routing import Route, RoutingInstance
 from windopt.heuristics.algorithm_2 import algorithm_2
 from windopt.heuristics.baseline import baseline
+from windopt.heuristics.splitting import split_by_rule
 from windopt.result import Result, Status
 from windopt.solving import integer
 
@@ -152,6 +154,7 @@ METHODS: dict[str, RoutingMethod] = {
     "time-flow": _formulation(_time_flow),
     "route-indexed": _formulation(_route_indexed),
     "algorithm-2": _heuristic(algorithm_2),
+    "algorithm-2-as-published": _heuristic(partial(algorithm_2, split=split_by_rule)),
     "baseline": _heuristic(baseline),
 }
 """Routing methods by name."""
