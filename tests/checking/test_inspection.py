@@ -66,6 +66,9 @@ MUTANTS = {
     "above the UAV's limit": replace(
         PLAN, fleet=Fleet((Station("S1", 0.0, 0.0, replace(UAV, wind_max=5.0)),))
     ),
+    "cannot hold its place": replace(
+        PLAN, fleet=Fleet((Station("S1", 0.0, 0.0, replace(UAV, airspeed=6.0)),))
+    ),
     "cannot be flown": replace(PLAN, wind=Wind.from_met(8.9, 0.0), fleet=Fleet(
         (Station("S1", 0.0, 0.0, replace(UAV, airspeed=8.0)),))),
     "leg 3 is said to take": replace(PLAN, wind=Wind.from_met(6.0, 91.0)),

@@ -88,8 +88,8 @@ def test_a_turbine_out_of_reach_is_listed_and_the_rest_is_planned():
     ("wind", "uav", "dwell", "reason"),
     [
         (Wind.from_met(16.0, 0.0), Uav(), 0.0, "above the UAVs' limit"),
-        (Wind.from_met(16.0, 0.0), Uav(wind_max=30.0), 0.0, "holds the course"),
-        (Wind.from_met(20.0, 0.0), Uav(wind_max=30.0), 0.0, "holds the course"),
+        (Wind.from_met(16.0, 0.0), Uav(wind_max=30.0), 0.0, "not below the airspeed"),
+        (Wind.from_met(20.0, 0.0), Uav(wind_max=30.0), 0.0, "not below the airspeed"),
         (EAST_WIND, Uav(), 1100.0, "round trip"),
     ],
 )
@@ -105,6 +105,15 @@ def test_a_station_at_a_turbine_serves_it_in_no_time():
     site = Farm("one", (Turbine("A", 5.0, 5.0),))
     result = plan_inspection(site, fleet((5.0, 5.0)), EAST_WIND, method="time-flow", dwell=60.0)
     assert result.objective == pytest.approx(60.0)
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_a_uav_that_cannot_hold_its_place_visits_not_even_the_turbine_it_is_kept_at(method):
+    site = Farm("one", (Turbine("A", 5.0, 5.0),))
+    slow = fleet((5.0, 5.0), uav=Uav(airspeed=5.0))
+    plan = plan_inspection(site, slow, EAST_WIND, method=method, dwell=60.0).found()
+    assert plan.flights == ()
+    assert "not below" in plan.unreachable[0].reason
 
 
 @pytest.mark.parametrize("method", METHODS)

@@ -53,7 +53,7 @@ class _Site:
 
     def within_reach(self, turbine: str, station: Station) -> bool:
         """Whether the UAV inspects it and is back, with a margin no rounding can fill."""
-        if self.wind.speed > station.uav.wind_max:
+        if self.wind.speed > station.uav.wind_max or self.wind.speed >= station.uav.airspeed:
             return False
         return self.flying_time((turbine,), station) < station.uav.t_max * (1 - TOLERANCE)
 
@@ -108,6 +108,9 @@ def _flight(flight: Flight, site: _Site) -> Iterator[str]:
     if site.wind.speed > station.uav.wind_max:
         wind, limit = site.wind.speed, station.uav.wind_max
         yield f"the wind of {wind:.2f} m/s is above the UAV's limit of {limit:.2f} m/s"
+    if site.wind.speed >= station.uav.airspeed:
+        wind, limit = site.wind.speed, station.uav.airspeed
+        yield f"in the wind of {wind:.2f} m/s a UAV of {limit:.2f} m/s cannot hold its place"
     if not flight.turbines:
         yield "no turbine is visited"
     if not set(flight.turbines) <= site.places.keys():

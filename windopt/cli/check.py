@@ -9,7 +9,7 @@ import typer
 from windopt.checking import Report
 from windopt.checking import check as check_plan
 from windopt.cli.options import Json
-from windopt.cli.terminal import complain, note, say
+from windopt.cli.terminal import complain, counted, note, say
 from windopt.io.plan_consistency import inconsistencies
 from windopt.io.plan_reader import plan_from_record
 from windopt.io.plans import read_json
@@ -34,7 +34,9 @@ def check(plan: PlanFile, json: Json = False) -> None:
         for sentence in report.violations:
             complain(sentence)
         note(report.warnings)
-        verdict = "passed" if report.passed else f"failed, {len(report.violations)} violations"
-        say(f"{plan}: {verdict} ({report.flights} flights, {report.set_points} set-points).")
+        faults = counted(len(report.violations), "violation")
+        verdict = "passed" if report.passed else f"failed, {faults}"
+        recomputed = counted(report.flights, "flight"), counted(report.set_points, "set-point")
+        say(f"{plan}: {verdict} ({', '.join(recomputed)}).")
     if not report.passed:
         raise typer.Exit(1)

@@ -5,7 +5,7 @@ from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from windopt.cli.terminal import note, say
+from windopt.cli.terminal import note
 from windopt.domain.plan import InspectionPlan, Plan, YawPlan
 from windopt.domain.wind import WindSeries
 from windopt.errors import InvalidInput, MissingExtra
@@ -60,7 +60,7 @@ def write_folder(
     if (flights := _flights(plan)) is not None:
         written += _map(flights, folder / "flights.geojson", force=force)
     written += _draw(dict(_pictures(plan, series)), folder, force=force)
-    say(f"Written to {folder}: {', '.join(written)}.")
+    note((f"Written to {folder}: {', '.join(written)}.",))
 
 
 def _flights(plan: Recorded) -> InspectionPlan | None:

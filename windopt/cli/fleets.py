@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from windopt.cli.terminal import note
+from windopt.cli.terminal import counted, note
 from windopt.domain.farm import Farm
 from windopt.domain.fleet import Fleet, Uav
 from windopt.errors import InvalidInput
@@ -39,5 +39,5 @@ def _by_default(farm: Farm, uav: Uav, *, dwell: float, seed: int) -> Fleet:
     if farm == built_in_farm():
         return built_in_stations(uav)
     placed = stations_by_k_means(farm, uav=uav, dwell=dwell, seed=seed)
-    note((f"{len(placed)} stations placed by k-means; name your own with --stations.",))
+    note((f"{counted(len(placed), 'station')} placed by k-means; name your own with --stations.",))
     return placed

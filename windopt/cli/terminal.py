@@ -31,6 +31,11 @@ def note(sentences: tuple[str, ...]) -> None:
         err.print(escape(sentence), style="dim")
 
 
+def counted(number: int, thing: str) -> str:
+    """Return a number of things in words: 1 flight, 2 flights."""
+    return f"{number} {thing}" if number == 1 else f"{number} {thing}s"
+
+
 @contextmanager
 def progress(task: str) -> Iterator[Callable[[float, float], None]]:
     """Show a task with its objective and bound [s] while it runs; silent off a terminal."""
@@ -76,7 +81,8 @@ def show_inspection(result: Result[InspectionPlan]) -> None:
     out.print(table)
     for left_out in plan.unreachable:
         say(f"Unreachable: {left_out.turbine}. {left_out.reason}")
-    say(f"{len(plan.flights)} flights, {result.objective:.2f} s ({result.objective / 60:.2f} min).")
+    flights = counted(len(plan.flights), "flight")
+    say(f"{flights}, {result.objective:.2f} s ({result.objective / 60:.2f} min).")
     say(f"{_proof(result)} {result.reason}".strip())
 
 

@@ -9,7 +9,7 @@ from windopt.errors import InvalidInput
 def require_positive(field: str, value: float) -> None:
     """Raise unless ``value`` is a positive, finite number."""
     if not (isfinite(value) and value > 0):
-        raise InvalidInput(field, "> 0", value)
+        raise InvalidInput(field, "> 0 and finite" if value > 0 else "> 0", value)
 
 
 def require_not_negative(field: str, value: float) -> None:

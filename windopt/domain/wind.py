@@ -44,7 +44,7 @@ class Wind:
             Where it blows from [deg], clockwise from north; 90 is an east wind.
         """
         if not (isfinite(speed) and speed >= 0):
-            raise InvalidInput("wind speed", ">= 0 m/s", speed)
+            raise InvalidInput("wind speed", "to be finite and >= 0 m/s", speed)
         require_finite("wind direction", direction)
         theta_pol = 1.5 * pi - radians(direction % 360.0)
         return cls(speed * cos(theta_pol), speed * sin(theta_pol))

@@ -81,7 +81,8 @@ def _times(station: Station, farm: Farm, wind: Wind, rule: SpeedRule) -> NDArray
 
 
 def _flies(station: Station, wind: Wind) -> bool:
-    return wind.speed <= station.uav.wind_max
+    """Whether the UAV is allowed in the wind, and can stay where it is."""
+    return wind.speed <= station.uav.wind_max and wind.speed < station.uav.airspeed
 
 
 def unreachable_turbines(
@@ -97,7 +98,10 @@ def unreachable_turbines(
 def _reason(fleet: Fleet, wind: Wind, instance: RoutingInstance, i: int) -> str:
     if not any(_flies(station, wind) for station in fleet.stations):
         limit = max(station.uav.wind_max for station in fleet.stations)
-        return f"The wind of {wind.speed:.1f} m/s is above the UAVs' limit of {limit:.1f} m/s."
+        if wind.speed > limit:
+            return f"The wind of {wind.speed:.1f} m/s is above the UAVs' limit of {limit:.1f} m/s."
+        fastest = max(station.uav.airspeed for station in fleet.stations)
+        return f"The wind of {wind.speed:.1f} m/s is not below the UAVs' airspeed of {fastest:.1f} m/s."
     round_trip = np.where(instance.allowed[:, i], instance.round_trip[:, i], np.inf)
     excess = round_trip - instance.t_max
     nearest = int(np.argmin(excess))

@@ -24,7 +24,7 @@ Routes = tuple[Route, ...]
 HEAD_START = 0.2
 """Share of the time limit that Algorithm 2 may use before a formulation begins."""
 
-TOO_LARGE = "The program is too large to be built in time; this is Algorithm 2's plan."
+TOO_LARGE = "To build the program would take too much of the time; this is Algorithm 2's plan."
 
 ROUNDING = 1e-9
 """Seconds by which two sums of the same legs may differ."""
