@@ -101,7 +101,7 @@ def _reason(fleet: Fleet, wind: Wind, instance: RoutingInstance, i: int) -> str:
         if wind.speed > limit:
             return f"The wind of {wind.speed:.1f} m/s is above the UAVs' limit of {limit:.1f} m/s."
         fastest = max(station.uav.airspeed for station in fleet.stations)
-        return f"The wind of {wind.speed:.1f} m/s is not below the UAVs' airspeed of {fastest:.1f} m/s."
+        return f"The wind of {wind.speed:.1f} m/s is not below the airspeed of {fastest:.1f} m/s."
     round_trip = np.where(instance.allowed[:, i], instance.round_trip[:, i], np.inf)
     excess = round_trip - instance.t_max
     nearest = int(np.argmin(excess))
