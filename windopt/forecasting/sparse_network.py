@@ -1,6 +1,6 @@
 r"""The network with sparse matrices, in the two ways in which quantised weights can be sparse.
 
-(a) Levels that are symmetric around zero without containing it (:attr:`Levels.HALF`) are affine in
+(a) Levels that are symmetric around zero without containing it (``Levels.HALF``) are affine in
 unsigned codes C, of which a fifth to a third are zero, and
 
 .. math::
@@ -9,7 +9,7 @@ unsigned codes C, of which a fifth to a third are zero, and
 
 so C is stored sparse and its constant row is subtracted once.
 
-(b) Levels with a zero (:attr:`Levels.ZERO`) give a sparse matrix as they are.
+(b) Levels with a zero (``Levels.ZERO``) give a sparse matrix as they are.
 
 Neither is quicker than a dense product until about nine weights in ten are zero; they are here
 because the paper computes so, and to be measured.
