@@ -96,7 +96,8 @@ def by_source(series: WindSeries) -> Iterator[Row]:
         HourAhead(LinearAutoregression(12 * HOUR, HOUR)),
     ]
     fitted = [one.fit(before) for one in hourly]
-    yield from rows(backtest([*fitted, LinearAutoregression().fit(before)], after))
+    for name, *figures in rows(backtest([*fitted, LinearAutoregression().fit(before)], after)):
+        yield (f"{name} (windows of 12 h)", *figures)
 
 
 def main() -> None:

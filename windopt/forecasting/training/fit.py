@@ -104,12 +104,14 @@ def fit(
     early, late = ([_found(part, recipe) for part in parts] for parts in zip(*pairs, strict=True))
     early = [replace(some, start=some.start[:: recipe.stride]) for some in early]
     scaling, spread = _scaling(way, early)
+    examples = _examples(way, early, scaling)
     learn = partial(
         train,
-        examples=_examples(way, early, scaling),
+        examples=examples,
         validation=_examples(way, late, scaling),
         loss=_loss(way, spread),
         scale=torch.from_numpy(scaling.outputs),
+        centre=examples.y.mean(dim=0)[:, list(way.columns)],
         mirror=way.mirror,
         seed=seed,
         progress=progress,

@@ -105,6 +105,7 @@ def train(
     loss: Loss,
     *,
     scale: Tensor,
+    centre: Tensor,
     mirror: Mirror = ((), ()),
     schedule: Schedule,
     seed: int,
@@ -118,6 +119,8 @@ def train(
     ----------
     scale
         What the network's outputs count, shape ``(H, k)``.
+    centre
+        What they should be on average, where training begins, same shape.
     mirror
         Inputs and truths that change sign when left and right are exchanged.
     start
@@ -129,6 +132,7 @@ def train(
     """
     torch.manual_seed(seed)
     module = LstmModule(shape)
+    module.begin_at(centre / scale)
     if start is not None:
         module.begin_with(start)
     steps = max(1, len(examples) // schedule.batch)

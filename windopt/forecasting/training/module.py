@@ -63,6 +63,11 @@ class LstmModule(nn.Module):
             y: Tensor = self.output(states[:, -1])
         return y
 
+    def begin_at(self, outputs: Tensor) -> None:
+        """Let the network say ``outputs`` on average."""
+        with torch.no_grad():
+            self.output.bias.copy_(outputs.flatten())
+
     def begin_with(self, weights: Weights) -> None:
         """Take over ``weights`` as the ones before quantisation."""
         values = {
