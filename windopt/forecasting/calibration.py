@@ -87,33 +87,32 @@ class Calibration:
 
 def calibrate(cases: Iterable[tuple[Traces, Traces, Traces]]) -> Calibration:
     """Find the factors from ``(forecast, past, future)`` of windows that trained nothing."""
-    ratios: list[list[Floats]] = [[], []]
-    surprises: list[list[Floats]] = [[], []]
-    of = []
+    classes, speed, turn = [], [], []
     for ahead, past, future in cases:
         if ahead.quantiles is None:
             return Calibration.none()
-        of.append(np.repeat(calibration_class(past), future.speed.shape[1]))
-        for k, (error, away) in enumerate(
-            (
-                (future.speed - ahead.speed, ahead.quantiles.speed - ahead.speed[..., None]),
-                (wrapped(future.theta_met - ahead.theta_met), ahead.quantiles.turn),
-            )
-        ):
-            signed = np.where(np.abs(away) > 1e-6, away, np.copysign(1e-6, np.array(LEVELS) - 0.5))
-            ratios[k].append((error[..., None] / signed).reshape(-1, len(LEVELS)))
-            surprises[k].append(error / (away[..., -1] - away[..., 0] + 1e-6))
-    classes = np.concatenate(of)
-    speed, turn = (_factors(np.concatenate(ratio), classes) for ratio in ratios)
-    a, b = (_memory(np.concatenate(surprise)) for surprise in surprises)
-    return Calibration(speed, turn, (a, b))
+        classes.append(calibration_class(past))
+        away = ahead.quantiles.speed - ahead.speed[..., None]
+        speed.append(_surprises(future.speed - ahead.speed, away))
+        error = wrapped(future.theta_met - ahead.theta_met)
+        turn.append(_surprises(error, ahead.quantiles.turn))
+    of = np.concatenate(classes)
+    speeds, turns = np.concatenate(speed), np.concatenate(turn)
+    memory = (_memory(speeds), _memory(turns))
+    return Calibration(_factors(speeds, of), _factors(turns, of), memory)
 
 
-def _factors(ratio: Floats, classes: Classes) -> Floats:
-    """Quantiles of the ratios ``(N, Q)`` within each class, shape ``(8, Q)``."""
+def _surprises(error: Floats, away: Floats) -> Floats:
+    """Errors ``(B, H)`` over the distance of each quantile from the median, ``(B, H, Q)``."""
+    least = np.copysign(1e-6, np.array(LEVELS) - 0.5)
+    return error[..., None] / np.where(np.abs(away) > 1e-6, away, least)
+
+
+def _factors(surprises: Floats, classes: Classes) -> Floats:
+    """Quantiles of the surprises within each class, shape ``(8, Q)``."""
     factors = np.ones((CLASSES, len(LEVELS)))
     for k in range(len(factors)):
-        inside = ratio[classes == k]
+        inside = surprises[classes == k].reshape(-1, len(LEVELS))
         if len(inside) < FEW:
             continue
         for j, level in enumerate(LEVELS):
@@ -123,13 +122,14 @@ def _factors(ratio: Floats, classes: Classes) -> Floats:
     return np.clip(factors, *FACTOR_LIMITS)
 
 
-def _memory(surprise: Floats) -> float:
+def _memory(surprises: Floats) -> float:
     """Fit the exponent a of the correlation (h / h')^a to errors in units of their spread."""
-    H = surprise.shape[1]
-    if H < 2 or len(surprise) < FEW:
+    B, H, _ = surprises.shape
+    if H < 2 or B * H < FEW:
         return 0.5
-    ranks = np.clip(surprise, -3, 3)
-    correlation = np.atleast_2d(np.corrcoef(ranks, rowvar=False))
+    up, down = surprises[..., -1], -surprises[..., 0]  # each right on its own side of the median
+    spread = np.clip(np.where(up > 0, up, down), -2.0, 2.0)
+    correlation = np.atleast_2d(np.corrcoef(spread, rowvar=False))
     h = np.log(np.arange(1, H + 1))
     i, j = np.triu_indices(H, 1)
     exponents = -np.log(np.clip(correlation[i, j], 1e-3, 0.999)) / (h[j] - h[i])

@@ -92,6 +92,17 @@ def test_a_training_that_was_interrupted_ends_where_it_would_have(trained, tmp_p
     )
 
 
+def test_a_checkpoint_that_is_damaged_or_of_another_network_is_refused(tmp_path):
+    short = replace(QUICK, schedule=Schedule(epochs=1), refinement=Schedule(epochs=1))
+    checkpoint = tmp_path / "training.pt"
+    fit(short, [swinging(600)], checkpoint=checkpoint)
+    with pytest.raises(InvalidInput, match="checkpoint"):
+        fit(replace(short, units=7), [swinging(600)], checkpoint=checkpoint)
+    checkpoint.write_bytes(checkpoint.read_bytes()[:1000])
+    with pytest.raises(InvalidInput, match="checkpoint"):
+        fit(short, [swinging(600)], checkpoint=checkpoint)
+
+
 def test_training_stops_when_it_no_longer_helps():
     seen = []
     noise = swinging(400)

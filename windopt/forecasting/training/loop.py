@@ -4,6 +4,7 @@ import logging
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from pickle import PickleError
 from typing import Any
 
 import numpy as np
@@ -156,22 +157,21 @@ def train(
         order = torch.randperm(len(examples), generator=draws)
         total = 0.0
         for rows in order[: steps * schedule.batch].chunk(steps):
-            optimiser.zero_grad()
-            value = error(examples.at(rows).mirrored(mirror, draws))
-            value.backward()  # type: ignore[no-untyped-call]
-            nn.utils.clip_grad_norm_(module.parameters(), 1.0)
-            optimiser.step()
-            rate.step()
-            total += value.item()
-        with torch.no_grad():
-            parts = torch.split(torch.arange(len(validation)), 8192)
-            losses = [error(validation.at(rows)).item() * len(rows) for rows in parts]
-        epoch = state.record(number, total / steps, sum(losses) / len(validation))
+            total += state.descend(error(examples.at(rows).mirrored(mirror, draws)))
+        epoch = state.record(number, total / steps, _mean(error, validation))
         if checkpoint is not None:
             state.save(checkpoint)
         if progress is not None:
             progress(epoch)
     return state.best_weights()
+
+
+def _mean(error: Callable[[Examples], Tensor], examples: Examples) -> float:
+    """Mean error over the examples, some at a time."""
+    with torch.no_grad():
+        parts = torch.split(torch.arange(len(examples)), 8192)
+        losses = [error(examples.at(rows)).item() * len(rows) for rows in parts]
+    return sum(losses) / len(examples)
 
 
 class _State:
@@ -181,6 +181,15 @@ class _State:
         self.module, self.optimiser, self.rate, self.bits = module, optimiser, rate, bits
         self.epoch, self.best_epoch, self.best_loss = 0, 0, float("inf")
         self.best: dict[str, Tensor] = {}
+
+    def descend(self, value: Tensor) -> float:
+        """Take one step down from a loss, and return it."""
+        self.optimiser.zero_grad()
+        value.backward()  # type: ignore[no-untyped-call]
+        nn.utils.clip_grad_norm_(self.module.parameters(), 1.0)
+        self.optimiser.step()
+        self.rate.step()
+        return value.item()
 
     def record(self, number: int, loss: float, validation_loss: float) -> Epoch:
         """Note the end of an epoch, and keep the weights if they are the best."""
@@ -206,9 +215,26 @@ class _State:
         unfinished.replace(path)
 
     def load(self, path: Path) -> None:
-        """Read a state that :meth:`save` wrote."""
-        saved = torch.load(path, weights_only=True)
-        for name in "module", "optimiser", "rate":
-            getattr(self, name).load_state_dict(saved[name])
-        self.epoch, self.best = saved["epoch"], saved["best"]
-        self.best_epoch, self.best_loss = saved["best_epoch"], saved["best_loss"]
+        """Read a state that :meth:`save` wrote.
+
+        Raises
+        ------
+        InvalidInput
+            If the file is damaged, or of another network.
+        """
+        try:
+            saved = torch.load(path, weights_only=True)
+            for name in "module", "optimiser", "rate":
+                getattr(self, name).load_state_dict(saved[name])
+            self.epoch, self.best = saved["epoch"], saved["best"]
+            self.best_epoch, self.best_loss = saved["best_epoch"], saved["best_loss"]
+        except (
+            OSError,
+            RuntimeError,
+            ValueError,
+            KeyError,
+            TypeError,
+            EOFError,
+            PickleError,
+        ) as no:
+            raise InvalidInput("checkpoint", "of this training", f"{path.name}: {no}") from no
