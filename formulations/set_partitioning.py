@@ -1,0 +1,107 @@
+r"""Inspection by set partitioning: choose among flights that are known in advance.
+
+Flight r of the set :math:`R` takes the time :math:`c_r`, visits turbine i :math:`a_{ir}` times
+and starts from station :math:`d(r)`; :math:`x_r` says whether it is flown.
+
+.. math::
+
+    \min_x \quad & \sum_{r \in R} c_r x_r                                          \tag{1} \\
+    \text{s.t.} \quad & \sum_r a_{ir} x_r = 1 & i = 1, \dots, n                     \tag{2} \\
+      & l_d \le \sum_{r : d(r) = d} x_r \le u_d & d = 1, \dots, k                   \tag{3} \\
+      & l_0 \le \sum_r x_r \le u_0                                                  \tag{4} \\
+      & \sum_r \Bigl\lfloor \tfrac12 \sum_{i \in S} a_{ir} \Bigr\rfloor x_r \le 1
+        & |S| = 3                                                                   \tag{5} \\
+      & x_r \in \{0, 1\}                                                            \tag{6}
+
+Where flights obey the triangle inequality (2) may read :math:`\ge 1`, and its relaxation is then
+the master of column generation: flights are added as they are found, by
+:meth:`SetPartitioning.add_flights`. (5) follows from (2) and (6) and cuts off fractional plans
+[1]_; there are :math:`n^3 / 6` such rows, so they too are added as they are violated.
+
+.. [1] Jepsen, Petersen, Spoorendonk & Pisinger (2008), *Operations Research* 56, 497-511.
+"""
+
+from dataclasses import dataclass
+
+import highspy
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import csc_array, csr_array
+
+INF = highspy.kHighsInf
+
+
+@dataclass(frozen=True)
+class SetPartitioning:
+    """The program of the flights added so far.
+
+    Attributes
+    ----------
+    model
+        Rows in the order (2), (3), (4), (5).
+    n, k
+        Number of turbines and of stations.
+    integer
+        Whether (6) holds, or only x >= 0.
+    """
+
+    model: highspy.Highs
+    n: int
+    k: int
+    integer: bool
+
+    def add_flights(self, c: NDArray[np.float64], a: csc_array) -> None:
+        """Add one column per flight.
+
+        Parameters
+        ----------
+        c
+            Time of each flight, shape ``(m,)``.
+        a
+            Coefficients in all rows, shape ``(rows, m)``.
+        """
+        before, m = self.model.getNumCol(), len(c)
+        upper = np.full(m, 1.0 if self.integer else INF)
+        starts, rows = a.indptr[:-1].astype(np.int32), a.indices.astype(np.int32)
+        self.model.addCols(m, c, np.zeros(m), upper, a.nnz, starts, rows, a.data)  # (1), (6)
+        if self.integer:
+            kinds = np.full(m, int(highspy.HighsVarType.kInteger), np.uint8)
+            columns = np.arange(before, before + m, dtype=np.int32)
+            self.model.changeColsIntegrality(m, columns, kinds)
+
+    def add_subset_rows(self, a: csr_array) -> None:
+        """Add rows (5) with the coefficients ``a``, shape ``(m, flights)``."""
+        m = a.shape[0]
+        starts, columns = a.indptr[:-1].astype(np.int32), a.indices.astype(np.int32)
+        lower, upper = np.full(m, -INF), np.ones(m)
+        self.model.addRows(m, lower, upper, a.nnz, starts, columns, a.data)  # (5)
+
+
+def set_partitioning(
+    n: int,
+    counts: NDArray[np.float64],
+    *,
+    integer: bool = True,
+    cover: bool = False,
+) -> SetPartitioning:
+    """Build the rows (2)-(4); flights come later.
+
+    Parameters
+    ----------
+    n
+        Number of turbines.
+    counts
+        Least and largest number of flights of each station, and of all; shape ``(k + 1, 2)``.
+    integer
+        Whether to ask for (6), or for x >= 0 only.
+    cover
+        Whether (2) reads >= 1.
+    """
+    model = highspy.Highs()
+    model.silent()
+    nothing = np.array([], np.int32)
+    for _ in range(n):
+        model.addRow(1.0, INF if cover else 1.0, 0, nothing, np.array([]))  # (2)
+    for lower, upper in counts:
+        model.addRow(float(lower), float(upper), 0, nothing, np.array([]))  # (3), (4)
+    return SetPartitioning(model, n, len(counts) - 1, integer)

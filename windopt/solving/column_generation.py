@@ -1,0 +1,121 @@
+"""Inspection plans with a proof, by column generation.
+
+The recipe is that of exact vehicle routing [1]_, [2]_, for flights limited in time: a relaxation
+over flights that may return to a turbine, tightened until the flights that can matter are few
+enough to be listed, and a choice among these. Its ideas stand in :mod:`windopt.solving.exact`,
+one to a module.
+
+.. [1] Baldacci, Christofides & Mingozzi (2008), *Mathematical Programming* 115, 351-385.
+.. [2] Pessoa, Sadykov, Uchoa & Vanderbeck (2020), *Mathematical Programming* 183, 483-523.
+"""
+
+from collections.abc import Callable
+from math import inf
+
+import numpy as np
+
+from windopt.domain.routing import Route, RoutingInstance
+from windopt.errors import InvalidInput
+from windopt.result import Result, Status
+from windopt.solving.exact.clock import Clock, OutOfTime
+from windopt.solving.exact.closing import close
+from windopt.solving.exact.local_search import improve
+from windopt.solving.exact.pricing import LabelsOverflow
+from windopt.solving.exact.relaxation import Relaxation
+from windopt.solving.exact.search import Search, alone
+
+ITERATIONS = 300
+"""Ruins and recreations per turbine."""
+SOURCE = "column generation"
+
+
+def column_generation(
+    instance: RoutingInstance,
+    *,
+    time_limit: float = 300.0,
+    gap: float = 0.0,
+    seed: int = 0,
+    start: tuple[Route, ...] | None = None,
+    memory: float = 4e9,
+    progress: Callable[[float, float], None] | None = None,
+) -> Result[tuple[Route, ...]]:
+    """Find the plan of least total time, and prove that it is.
+
+    Parameters
+    ----------
+    time_limit
+        Wall-clock limit [s].
+    gap
+        Relative gap at which to stop [-].
+    start
+        A plan to improve on; one that does not keep the limits is passed over.
+    memory
+        What labels and flights may take [bytes].
+    progress
+        Called with objective and bound [s] whenever one of them improves.
+
+    Returns
+    -------
+    The best plan and the best bound found when the gap is closed, time is up, or the user
+    interrupts; INFEASIBLE with the turbines that no flight can reach.
+    """
+    if not time_limit >= 0:
+        raise InvalidInput("time_limit", ">= 0 s", time_limit)
+    if not gap >= 0:
+        raise InvalidInput("gap", ">= 0", gap)
+    if not memory >= 1e8:
+        raise InvalidInput("memory", "of at least 1e8 bytes", memory)
+    with Clock(time_limit) as clock:
+        search = Search(instance, clock, gap, progress)
+        if search.unreachable.size:
+            beyond = ", ".join(str(i) for i in search.unreachable)
+            reason = f"No flight from any station reaches turbines {beyond} and is back in time."
+            return Result(Status.INFEASIBLE, None, inf, inf, clock.elapsed, SOURCE, reason)
+        try:
+            _begin(search, start, seed)
+            _prove(search, memory)
+            stopped = Status.FEASIBLE
+        except (OutOfTime, LabelsOverflow):
+            stopped = Status.FEASIBLE
+        except KeyboardInterrupt:
+            stopped = Status.INTERRUPTED
+        return _result(search, stopped)
+
+
+def _begin(search: Search, start: tuple[Route, ...] | None, seed: int) -> None:
+    """Find a good plan."""
+    search.offer(alone(search.networks))
+    if start is not None:
+        search.offer([(route.station, route.turbines) for route in start])
+    if search.flights:
+        iterations = ITERATIONS * search.n
+        search.offer(
+            improve(search.networks, search.flights, search.clock, iterations=iterations, seed=seed)
+        )
+
+
+def _prove(search: Search, memory: float) -> None:
+    """Raise the bound to the plan, or find a better plan."""
+    anywhere = np.tile([0.0, inf], (len(search.networks) + 1, 1))
+    relaxation = Relaxation(search, memory, counts=anywhere)
+    relaxation.solve()
+    while relaxation.grow_neighbourhoods():
+        relaxation.solve()
+    while not search.closed:
+        fixing = relaxation.fix_arcs()
+        if fixing is not None:
+            close(relaxation, fixing, search)
+        if search.closed or not relaxation.add_cuts():
+            return
+        relaxation.solve()
+
+
+def _result(search: Search, stopped: Status) -> Result[tuple[Route, ...]]:
+    """Return what is known."""
+    runtime = search.clock.elapsed
+    bound = search.bound * search.unit
+    if not search.flights:
+        return Result(Status.NO_SOLUTION, None, inf, bound, runtime, SOURCE)
+    status = Status.OPTIMAL if search.closed else stopped
+    objective = search.objective * search.unit
+    return Result(status, search.routes(), objective, bound, runtime, SOURCE)

@@ -1,0 +1,1 @@
+"""Column generation for inspection flights: one idea per module."""

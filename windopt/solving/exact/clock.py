@@ -1,0 +1,112 @@
+"""The clock: a limit on wall time that compiled loops obey as well as Python's.
+
+Compiled loops run in threads of their own and look at :attr:`Clock.stop` now and then. It is set
+when time is up, and when the user interrupts, whom the waiting main thread can hear.
+"""
+
+from collections.abc import Callable, Iterable
+from concurrent.futures import ThreadPoolExecutor
+from os import cpu_count
+from threading import Timer
+from time import perf_counter
+from types import TracebackType
+from typing import Any, Self
+
+import highspy
+import numpy as np
+
+
+class OutOfTime(Exception):  # noqa: N818  (a way out of nested loops, not a mistake)
+    """The time limit was reached."""
+
+
+class Clock:
+    """Wall time since it was made, its limit, and the threads that work under it.
+
+    Parameters
+    ----------
+    limit
+        Time to run [s].
+    """
+
+    def __init__(self, limit: float) -> None:
+        self.began = perf_counter()
+        self.limit = limit
+        self.stop = np.zeros(1, np.uint8)
+        self.workers = ThreadPoolExecutor(min(4, cpu_count() or 1))
+        self._alarm = Timer(max(0.0, min(limit, 1e7)), self.halt)
+        self._alarm.daemon = True
+
+    def __enter__(self) -> Self:
+        self._alarm.start()
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        self.halt()
+        self._alarm.cancel()
+        self.workers.shutdown()
+
+    @property
+    def elapsed(self) -> float:
+        """Time since the start [s]."""
+        return perf_counter() - self.began
+
+    @property
+    def left(self) -> float:
+        """Time until the limit [s]."""
+        return max(0.0, self.limit - self.elapsed)
+
+    def halt(self) -> None:
+        """Tell compiled loops to end."""
+        self.stop[0] = 1
+
+    def check(self) -> None:
+        """Raise :class:`OutOfTime` when time is up."""
+        if self.stop[0] or self.left <= 0.0:
+            raise OutOfTime
+
+    def map(self, function: Callable[..., Any], *arguments: Iterable[Any]) -> list[Any]:
+        """Call ``function`` on each set of arguments, in threads, and wait for all."""
+        self.check()
+        futures = [self.workers.submit(function, *each) for each in zip(*arguments, strict=True)]
+        try:
+            results = [future.result() for future in futures]
+        except BaseException:
+            self.halt()
+            for future in futures:
+                future.cancel()
+            raise
+        self.check()
+        return results
+
+    def run(self, model: highspy.Highs) -> None:
+        """Solve a small linear program, or raise :class:`OutOfTime`."""
+        self.check()
+        model.setOptionValue("time_limit", model.getRunTime() + self.left)
+        model.run()
+        if model.getModelStatus() != highspy.HighsModelStatus.kOptimal:
+            self.check()
+            raise RuntimeError(f"A linear program ended as {model.getModelStatus()}.")
+
+    def minimise(self, model: highspy.Highs) -> highspy.HighsModelStatus:
+        """Run HiGHS until it is done or time is up; an interrupt by the user stops it at once."""
+        self.check()
+        model.setOptionValue("time_limit", model.getRunTime() + self.left)
+        model.HandleKeyboardInterrupt = True
+        solver = model.startSolve()
+        try:
+            while solver.is_alive():
+                solver.join(0.05)
+                if self.left <= 0.0:
+                    model.cancelSolve()
+        except BaseException:
+            model.cancelSolve()
+            solver.join()
+            raise
+        status: highspy.HighsModelStatus = model.getModelStatus()
+        return status

@@ -1,0 +1,166 @@
+"""The master: the linear relaxation over the flights found so far, and its duals."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from scipy.sparse import csc_array, csr_array, vstack
+
+from formulations.set_partitioning import SetPartitioning, set_partitioning
+from windopt.solving.exact.clock import Clock
+from windopt.solving.exact.network import Floats, Network
+from windopt.solving.exact.subset_row_cuts import Column, Cuts, Path
+
+MISSING = 5.0
+"""Cost of leaving a turbine out, in t_max: more than any flight saves by it."""
+
+
+@dataclass(frozen=True)
+class Duals:
+    """Duals of the master, or any mix of several.
+
+    Parameters
+    ----------
+    pi
+        Reward of each turbine, not negative.
+    sigma
+        Price of a flight from each station, and of any flight, shape ``(k + 1,)``.
+    penalty
+        Price of each cut, not negative.
+    """
+
+    pi: Floats
+    sigma: Floats
+    penalty: Floats
+
+    @property
+    def toll(self) -> Floats:
+        """Price of a flight from each station, shape ``(k,)``."""
+        toll: Floats = self.sigma[:-1] + self.sigma[-1]
+        return toll
+
+    def value(self, counts: Floats) -> float:
+        """Return the bound these duals prove when no flight has a negative reduced cost."""
+        tight = np.where(self.sigma > 0, counts[:, 0], counts[:, 1])
+        paid = np.where(self.sigma == 0.0, 0.0, self.sigma) @ np.where(self.sigma == 0, 0.0, tight)
+        return float(self.pi.sum() - self.penalty.sum() + paid)
+
+    def towards(self, other: "Duals", share: float) -> "Duals":
+        """Return ``share`` of ``other`` and the rest of these."""
+        return Duals(
+            (1 - share) * self.pi + share * other.pi,
+            (1 - share) * self.sigma + share * other.sigma,
+            (1 - share) * self.penalty + share * other.penalty,
+        )
+
+
+class Master:
+    """Set partitioning, relaxed to covering, over a growing list of columns.
+
+    Parameters
+    ----------
+    networks
+        One for each station.
+    counts
+        Least and largest number of flights of each station, and of all, shape ``(k + 1, 2)``.
+    columns
+        Flights to start from.
+    """
+
+    def __init__(
+        self, networks: list[Network], counts: Floats, columns: Iterable[Column] = ()
+    ) -> None:
+        self.networks = networks
+        self.counts = counts
+        self.cuts = Cuts.none(len(networks[0].out))
+        self.columns: list[Column] = []
+        self._known: set[tuple[int, Path]] = set()
+        self.x = np.zeros(0)
+        self.missing = 0.0
+        self.value = 0.0
+        self._program: SetPartitioning
+        self.rebuild(columns)
+
+    @property
+    def n(self) -> int:
+        """Number of turbines."""
+        return len(self.networks[0].out)
+
+    def column(self, station: int, path: Path) -> Column:
+        """Return the column of one flight."""
+        return Column(station, path, self.networks[station].duration(path))
+
+    def rebuild(self, columns: Iterable[Column], cuts: Cuts | None = None) -> None:
+        """Start anew with ``columns`` and, where given, ``cuts``."""
+        columns = list(columns)
+        self.cuts = self.cuts if cuts is None else cuts
+        self._program = set_partitioning(self.n, self.counts, integer=False, cover=True)
+        nothing = csr_array((len(self.cuts), 0))
+        self._program.add_subset_rows(nothing)
+        artificial = csc_array(
+            (np.ones(self.n), (np.arange(self.n), np.arange(self.n))),
+            shape=(self.n + len(self.counts) + len(self.cuts), self.n),
+        )
+        cost = MISSING * max(network.t_max for network in self.networks)
+        self._program.add_flights(np.full(self.n, cost), artificial)
+        self.columns, self._known = [], set()
+        self.add(columns)
+
+    def add(self, columns: Iterable[Column]) -> int:
+        """Add the columns that are not there yet, and return how many."""
+        new = []
+        for column in columns:
+            if (column.station, column.path) not in self._known:
+                self._known.add((column.station, column.path))
+                new.append(column)
+        if new:
+            cost = np.array([column.cost for column in new])
+            self._program.add_flights(cost, self._matrix(new))
+            self.columns += new
+        return len(new)
+
+    def restrict(self, networks: list[Network]) -> None:
+        """Drop the columns that fly legs which ``networks`` leave out."""
+        self.networks = networks
+        self.rebuild(
+            column
+            for column in self.columns
+            if all(networks[column.station].arcs[i, j] for i, j in pairwise(column.path))
+        )
+
+    def _matrix(self, columns: list[Column]) -> csc_array:
+        lengths = [len(column.path) for column in columns]
+        visited = np.array([i for column in columns for i in column.path], np.int32)
+        flights = np.repeat(np.arange(len(columns)), lengths)
+        visits = csc_array(
+            (np.ones(len(visited)), (visited, flights)), shape=(self.n, len(columns))
+        )
+        stations = np.array([column.station for column in columns])
+        sent = np.zeros((len(self.counts), len(columns)))
+        sent[stations, np.arange(len(columns))] = 1.0
+        sent[-1] = 1.0
+        cut = self.cuts.coefficients([column.path for column in columns])
+        return csc_array(vstack([visits, csc_array(sent), csc_array(cut)]))
+
+    def solve(self, clock: Clock) -> Duals:
+        """Solve the relaxation and return its duals."""
+        model = self._program.model
+        clock.run(model)
+        solution = model.getSolution()
+        values = np.array(solution.col_value)
+        self.missing, self.x = float(values[: self.n].sum()), values[self.n :]
+        self.value = model.getInfo().objective_function_value
+        dual = np.array(solution.row_dual)
+        rows = self.n + len(self.counts)
+        return Duals(
+            np.maximum(dual[: self.n], 0.0), dual[self.n : rows], np.maximum(-dual[rows:], 0.0)
+        )
+
+    def reduced_costs(self) -> Floats:
+        """Return the reduced cost of each column."""
+        return np.array(self._program.model.getSolution().col_dual)[self.n :]
+
+    def flown(self) -> list[tuple[Column, float]]:
+        """Return the columns the relaxation uses, and how much of each."""
+        return [(self.columns[r], float(self.x[r])) for r in np.flatnonzero(self.x > 1e-7)]

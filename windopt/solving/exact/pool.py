@@ -1,0 +1,158 @@
+"""The pool: every flight that may be part of a better plan, priced by looking at each.
+
+Sets are kept twice: as bits of one flight, to tell its turbines, and as bits of one turbine over
+all flights, so that a subset row is priced for 64 flights at a time.
+"""
+
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from windopt.solving.exact.bits import NONE, ONE, position
+from windopt.solving.exact.clock import Clock
+from windopt.solving.exact.compiled import compiled
+from windopt.solving.exact.labels import Ints, Words, path
+from windopt.solving.exact.master import Duals
+from windopt.solving.exact.network import Bools, Floats
+from windopt.solving.exact.subset_row_cuts import Path, Triples, packed
+
+PART = 1 << 16
+"""Flights to turn at once, whole words of them."""
+
+
+class Tree(NamedTuple):
+    """Last turbine and parent of each half flight."""
+
+    node: Ints
+    parent: Ints
+
+
+@dataclass(frozen=True)
+class Pool:
+    """Flights, one per set of turbines.
+
+    Parameters
+    ----------
+    cost, station
+        Time and station of each flight, shape ``(m,)``.
+    ahead, behind
+        The halves it is joined from, rows of ``trees``, or -1.
+    sets
+        Its turbines as bits, shape ``(m, words)``.
+    trees
+        Half flights of each station, forward and backward.
+    """
+
+    cost: Floats
+    station: Ints
+    ahead: Ints
+    behind: Ints
+    sets: Words
+    trees: list[tuple[Tree, Tree]]
+
+    def __len__(self) -> int:
+        return len(self.cost)
+
+    def kept(self, rows: NDArray[np.intp] | Bools) -> "Pool":
+        """Return the flights ``rows``."""
+        return replace(
+            self,
+            cost=self.cost[rows],
+            station=self.station[rows],
+            ahead=self.ahead[rows],
+            behind=self.behind[rows],
+            sets=self.sets[rows],
+        )
+
+    def members(self, n: int) -> Bools:
+        """Return whether each flight visits each turbine, shape ``(m, n)``."""
+        as_bytes = np.ascontiguousarray(self.sets).view(np.uint8)
+        return np.unpackbits(as_bytes, axis=1, bitorder="little", count=n).view(bool)
+
+    def path(self, row: int) -> Path:
+        """Return the turbines of one flight, in order."""
+        forward, backward = self.trees[self.station[row]]
+        ahead = path(forward.node, forward.parent, int(self.ahead[row]))
+        behind = path(backward.node, backward.parent, int(self.behind[row]))
+        return ahead + behind[::-1]
+
+    def holds(self, turbines: Path, cost: float) -> bool:
+        """Tell whether a set of turbines is in the pool at no greater cost."""
+        wanted = np.zeros((1, 64 * self.sets.shape[1]), bool)
+        wanted[0, list(turbines)] = True
+        same = (self.sets == packed(wanted)).all(axis=1)
+        return bool((self.cost[same] <= cost + 1e-6).any())
+
+    def slices(self, n: int) -> Words:
+        """Return each turbine's flights as bits, shape ``(n, words over flights)``."""
+        rows = range(0, max(1, len(self)), PART)
+        parts = (self.kept(np.arange(i, min(i + PART, len(self)))) for i in rows)
+        words = [packed(np.ascontiguousarray(part.members(n).T)) for part in parts]
+        return np.ascontiguousarray(np.concatenate(words, axis=1))
+
+
+@compiled
+def _priced(
+    cost: Floats,
+    slices: Words,
+    pi: Floats,
+    triples: Triples,
+    penalty: Floats,
+    start: int,
+    end: int,
+) -> None:
+    """Take rewards off ``cost`` and add penalties, for the words ``start`` to ``end``."""
+    for i in range(len(pi)):
+        if pi[i] != 0.0:
+            for word in range(start, end):
+                bits = slices[i, word]
+                while bits != NONE:
+                    lowest = bits & (~bits + ONE)
+                    bits ^= lowest
+                    cost[64 * word + position(lowest)] -= pi[i]
+    for q in range(len(triples)):
+        i, j, k = triples[q]
+        for word in range(start, end):
+            a, b, c = slices[i, word], slices[j, word], slices[k, word]
+            bits = (a & b) | (a & c) | (b & c)
+            while bits != NONE:
+                lowest = bits & (~bits + ONE)
+                bits ^= lowest
+                cost[64 * word + position(lowest)] += penalty[q]
+
+
+@dataclass(frozen=True)
+class Inspection:
+    """Prices every flight of a pool by looking at it.
+
+    Parameters
+    ----------
+    pool
+        The flights.
+    slices
+        Of the pool.
+    """
+
+    pool: Pool
+    slices: Words
+
+    def reduced_costs(self, duals: Duals, triples: Triples, clock: Clock) -> Floats:
+        """Return the reduced cost of each flight, with subset rows of full memory.
+
+        Parameters
+        ----------
+        triples
+            The subset row of each of ``duals.penalty``.
+        """
+        cost = self.pool.cost - duals.toll[self.pool.station]
+        active = duals.penalty > 0.0
+        triples, penalty = np.ascontiguousarray(triples[active]), duals.penalty[active]
+        parts = np.linspace(0, self.slices.shape[1], 3).astype(np.int64)
+        clock.map(
+            lambda start, end: _priced(cost, self.slices, duals.pi, triples, penalty, start, end),
+            parts[:-1],
+            parts[1:],
+        )
+        return cost

@@ -1,0 +1,182 @@
+"""Column generation: the master over the flights at hand, and pricing for those that it lacks."""
+
+from dataclasses import dataclass, field, replace
+from math import inf
+
+import numpy as np
+
+from windopt.solving.exact.arc_fixing import Completions, useful_arcs
+from windopt.solving.exact.labels import LABEL_BYTES, Prices
+from windopt.solving.exact.master import Duals, Master
+from windopt.solving.exact.network import Floats, Network
+from windopt.solving.exact.ng_neighbourhoods import nearest
+from windopt.solving.exact.pricing import TOLERANCE, LabelsOverflow, Pricer, bucket
+from windopt.solving.exact.search import Search, alone
+from windopt.solving.exact.subset_row_cuts import Path, separate
+
+NEIGHBOURS, MOST_NEIGHBOURS = 8, 16
+"""Size of ng-neighbourhoods to begin with, and to let them grow to."""
+MOST_COLUMNS, KEPT_COLUMNS = 6000, 3000
+"""Columns at which the dearest are dropped, and how many are kept."""
+LABELS_SHARE = 0.25
+"""Share of the memory that labels may take."""
+MARGIN = 1e-4
+"""What a gap is widened by before anything is dropped, for the rounding of duals."""
+
+
+@dataclass(frozen=True)
+class Fixing:
+    """What is known of flights whose reduced cost is within a gap.
+
+    Parameters
+    ----------
+    value
+        The bound that the duals prove.
+    prices, toll
+        What the duals ask of turbines and cuts, and of a flight from each station.
+    completions
+        Least cost of the rest of a flight, for each station.
+    through
+        Least cost of a flight over each leg, ``(n, n)`` for each station.
+    """
+
+    value: float
+    prices: Prices
+    toll: Floats
+    completions: list[Completions]
+    through: list[Floats]
+
+    def limits(self, gap: float) -> Floats:
+        """Return the cost that no flight of reduced cost up to ``gap`` exceeds, by station."""
+        return self.toll + gap + MARGIN
+
+    def useful(self, networks: list[Network], gap: float) -> list[Network]:
+        """Return the networks without the legs of flights whose reduced cost exceeds ``gap``."""
+        each = zip(networks, self.through, self.limits(gap), strict=True)
+        return [network.restricted(through <= limit) for network, through, limit in each]
+
+
+@dataclass
+class Relaxation:
+    """The linear relaxation of a search over all its flights.
+
+    Attributes
+    ----------
+    counts
+        Least and largest number of flights of each station, and of all, shape ``(k + 1, 2)``.
+    duals
+        Of the last solution.
+    """
+
+    search: Search
+    memory: float
+    counts: Floats
+    master: Master = field(init=False)
+    pricer: Pricer = field(init=False)
+    duals: Duals = field(init=False)
+
+    def __post_init__(self) -> None:
+        networks = self.search.networks
+        self.master = Master(networks, self.counts)
+        flights = (*alone(networks), *self.search.flights)
+        self.master.add(self.master.column(d, path) for d, path in flights)
+        round_trips = np.minimum.reduce([network.legs + network.legs.T for network in networks])
+        capacity = int(LABELS_SHARE * self.memory / LABEL_BYTES)
+        neighbourhoods = nearest(round_trips, NEIGHBOURS)
+        self.pricer = Pricer(networks, neighbourhoods, self.search.clock, capacity)
+
+    def solve(self) -> None:
+        """Solve the master over all flights.
+
+        Exact pricing is asked about duals half way to the best seen, which swing less [1]_; what
+        it finds there bounds every plan by the duals' value + flights * least reduced cost.
+
+        .. [1] Wentges (1997), *International Transactions in Operational Research* 4, 151-162.
+
+        Raises
+        ------
+        LabelsOverflow
+            If there are more labels than memory allows.
+        OutOfTime
+            If time is up.
+        """
+        best, centre, exact = -inf, None, False
+        while True:
+            self.duals = self.master.solve(self.search.clock)
+            if not exact:
+                priced = self.pricer.price(self.master, self.duals, exact=False)
+                exact = not self.master.add(priced.columns)
+                continue
+            trial = self.duals if centre is None else self.duals.towards(centre, 0.5)
+            priced = self.pricer.price(self.master, trial, exact=True)
+            if not priced.complete:
+                raise LabelsOverflow
+            least = float(priced.least.min())
+            bound = trial.value(self.counts) + self.search.most_flights * least
+            self.search.prove(bound)
+            if bound > best:
+                best, centre = bound, trial
+            added = self.master.add(priced.columns)
+            if trial is self.duals and least >= -TOLERANCE:
+                return
+            if added:
+                exact = False
+            else:
+                centre = None
+            if len(self.master.columns) > MOST_COLUMNS:
+                cheapest = np.argsort(self.master.reduced_costs(), kind="stable")[:KEPT_COLUMNS]
+                self.master.rebuild([self.master.columns[r] for r in np.sort(cheapest)])
+
+    def reduced_cost(self, station: int, path: Path) -> float:
+        """Return the reduced cost of a flight without cycles, cuts counted in full."""
+        time = self.search.networks[station].duration(path)
+        visits = np.isin(self.master.cuts.triples, path).sum(axis=1)
+        penalty = self.duals.penalty[visits >= 2].sum()
+        reward = self.duals.pi[list(path)].sum() + self.duals.toll[station]
+        return float(time - reward + penalty)
+
+    def grow_neighbourhoods(self) -> bool:
+        """Forbid the cycles that the solution flies, and tell whether there were any."""
+        paths = [column.path for column, _ in self.master.flown()]
+        before = self.pricer.neighbourhoods
+        grown = before.grown_along(paths, MOST_NEIGHBOURS)
+        if grown.sets == before.sets:
+            return False
+        self.pricer = replace(self.pricer, neighbourhoods=grown)
+        self.master.rebuild([column for column in self.master.columns if grown.admit(column.path)])
+        return True
+
+    def add_cuts(self) -> bool:
+        """Cut off the fractional solution, and tell whether that was possible."""
+        cuts = separate(self.master.cuts.kept(self.duals.penalty > TOLERANCE), self.master.flown())
+        if cuts is None:
+            return False
+        self.master.rebuild(self.master.columns, cuts)
+        return True
+
+    def fix_arcs(self) -> Fixing | None:
+        """Drop the legs that no better plan flies.
+
+        Returns
+        -------
+        What remains known of the flights within the gap; None where memory does not suffice.
+        """
+        clock, networks = self.search.clock, self.pricer.networks
+        prices = self.master.cuts.prices(self.duals.pi, self.duals.penalty)
+        value = self.duals.value(self.counts) - TOLERANCE * self.search.most_flights
+        gap = self.search.ceiling - value
+
+        def fix(network: Network, limit: float) -> tuple[Completions, Floats] | None:
+            memory = self.pricer.neighbourhoods.memory
+            capacity = self.pricer.capacity
+            return useful_arcs(network, prices, memory, bucket(network), limit, capacity, clock)
+
+        found = clock.map(fix, networks, self.duals.toll + gap + MARGIN)
+        if any(each is None for each in found):
+            return None
+        completions, through = zip(*found, strict=True)
+        fixing = Fixing(value, prices, self.duals.toll, list(completions), list(through))
+        networks = fixing.useful(networks, gap)
+        self.pricer = replace(self.pricer, networks=networks)
+        self.master.restrict(networks)
+        return fixing

@@ -1,0 +1,139 @@
+"""The state of a search: the best plan, the bound, and the time left."""
+
+from collections.abc import Callable, Sequence
+from math import inf
+
+import numpy as np
+from numpy.typing import NDArray
+
+from windopt.domain.routing import Route, RoutingInstance
+from windopt.solving.exact.clock import Clock
+from windopt.solving.exact.network import SLACK, Floats, Network, networks
+
+CLOSED = 1e-6
+"""Bound and objective this close are equal, in thousandths of t_max / 1000."""
+
+TOLERATED = 1e-3
+"""A bound may exceed a plan by rounding, and by no more than this."""
+
+Flight = tuple[int, tuple[int, ...]]
+
+
+class ProofError(RuntimeError):
+    """A plan contradicts what was proved: an error in this code, not in the input."""
+
+
+class Search:
+    """The best plan and the best bound so far; each only ever improves.
+
+    Parameters
+    ----------
+    gap
+        Relative gap at which to stop.
+    progress
+        Called with objective and bound [s] whenever one of them improves.
+    """
+
+    def __init__(
+        self,
+        instance: RoutingInstance,
+        clock: Clock,
+        gap: float = 0.0,
+        progress: Callable[[float, float], None] | None = None,
+    ) -> None:
+        self.networks, self.unit = networks(instance)
+        self.clock = clock
+        self.flights: tuple[Flight, ...] = ()
+        self.objective = inf
+        self.bound = _arrivals(self.networks)
+        self.n = len(instance.turbines)
+        self._gap = gap
+        self._progress = progress
+        self._merge = all(_obeys_triangle(network) for network in self.networks)
+
+    @property
+    def closed(self) -> bool:
+        """Whether the bound proves the plan, within the gap asked for."""
+        allowed = max(CLOSED, self._gap * self.objective) if self.flights else 0.0
+        return self.objective - self.bound <= allowed
+
+    @property
+    def ceiling(self) -> float:
+        """A value that every plan of interest keeps below."""
+        longest = max(network.t_max for network in self.networks)
+        return min(self.objective, self.n * longest + 1.0)
+
+    @property
+    def most_flights(self) -> float:
+        """Return how many flights a plan no worse than this one needs at most.
+
+        Two flights of one station that fit into one t_max together are one flight at no greater
+        cost, so all but one flight of a station take more than half of t_max on average.
+        """
+        if not (self._merge and self.flights):
+            return float(self.n)
+        shortest = min(network.t_max for network in self.networks)
+        return min(float(self.n), 2 * self.objective / shortest + len(self.networks))
+
+    @property
+    def unreachable(self) -> NDArray[np.intp]:
+        """Turbines that no flight can visit in time."""
+        nets = self.networks
+        fits = [net.forward.rest + net.backward.rest <= net.t_max + SLACK for net in nets]
+        return np.flatnonzero(~np.any(fits, axis=0))
+
+    def offer(self, flights: Sequence[Flight]) -> bool:
+        """Take a plan if it is better than the one at hand, and tell whether it was."""
+        visited = sorted(i for _, path in flights for i in path)
+        times = [self.networks[d].duration(path) for d, path in flights]
+        limits = [self.networks[d].t_max + 10 * SLACK for d, _ in flights]
+        if visited != list(range(self.n)) or (np.array(times) > np.array(limits)).any():
+            return False
+        objective = sum(times)
+        if objective >= self.objective - 1e-9:
+            return False
+        if objective < self.bound - TOLERATED:
+            raise ProofError(f"A plan of {objective} lies below the bound {self.bound}.")
+        self.flights, self.objective = tuple(flights), objective
+        self.bound = min(self.bound, objective)
+        self._tell()
+        return True
+
+    def prove(self, bound: float) -> None:
+        """Take a lower bound on every plan, or on those better than the one at hand."""
+        if bound > self.objective + TOLERATED:
+            raise ProofError(f"A bound of {bound} exceeds the plan of {self.objective}.")
+        bound = min(bound, self.objective)
+        if bound > self.bound:
+            self.bound = bound
+            self._tell()
+
+    def routes(self) -> tuple[Route, ...]:
+        """Return the best plan."""
+        return tuple(Route(d, path) for d, path in sorted(self.flights))
+
+    def _tell(self) -> None:
+        if self._progress and self.flights:
+            self._progress(self.objective * self.unit, self.bound * self.unit)
+
+
+def _arrivals(networks: list[Network]) -> float:
+    """Bound any plan by the shortest leg to each turbine and the shortest leg home."""
+    arrive = np.min([np.minimum(net.out, net.legs.min(axis=0, initial=inf)) for net in networks], 0)
+    home = min(float(net.back.min(initial=inf)) for net in networks)
+    return float(arrive.sum()) + home
+
+
+def _obeys_triangle(network: Network) -> bool:
+    """Tell whether flying by way of the station never saves time."""
+    direct, by_station = network.legs, network.back[:, None] + network.out[None, :]
+    off = ~np.eye(len(direct), dtype=bool)
+    return bool((direct[off] <= by_station[off] + 1e-9).all())
+
+
+def alone(networks: list[Network]) -> list[Flight]:
+    """Return the fastest flight to each turbine alone, where one fits into t_max."""
+    trips: Floats = np.array([net.out + net.back for net in networks])
+    trips[trips > np.array([net.t_max for net in networks])[:, None] + SLACK] = inf
+    fits = np.isfinite(trips).any(axis=0)
+    return [(int(trips[:, i].argmin()), (int(i),)) for i in np.flatnonzero(fits)]
