@@ -24,8 +24,10 @@ from windopt.solving.exact.pricing import LabelsOverflow
 from windopt.solving.exact.relaxation import Relaxation
 from windopt.solving.exact.search import Search, alone
 
-ITERATIONS = 300
-"""Ruins and recreations per turbine."""
+EFFORT, MORE = 300_000, 1.5
+"""Half flights that the first attempt to list all flights may hold, and the growth of that."""
+FARTHER = 1.5
+"""How much wider a part of the gap to try next than the last that could be listed."""
 SOURCE = "column generation"
 
 
@@ -88,10 +90,8 @@ def _begin(search: Search, start: tuple[Route, ...] | None, seed: int) -> None:
     if start is not None:
         search.offer([(route.station, route.turbines) for route in start])
     if search.flights:
-        iterations = ITERATIONS * search.n
-        search.offer(
-            improve(search.networks, search.flights, search.clock, iterations=iterations, seed=seed)
-        )
+        improve(search, seed)
+    search.note("start")
 
 
 def _prove(search: Search, memory: float) -> None:
@@ -101,13 +101,15 @@ def _prove(search: Search, memory: float) -> None:
     relaxation.solve()
     while relaxation.grow_neighbourhoods():
         relaxation.solve()
+    effort, reach = EFFORT, inf
     while not search.closed:
         fixing = relaxation.fix_arcs()
         if fixing is not None:
-            close(relaxation, fixing, search)
+            reach = FARTHER * close(relaxation, fixing, reach, int(effort), search)
         if search.closed or not relaxation.add_cuts():
             return
         relaxation.solve()
+        effort *= MORE
 
 
 def _result(search: Search, stopped: Status) -> Result[tuple[Route, ...]]:

@@ -11,9 +11,20 @@ from typing import NamedTuple
 
 import numpy as np
 
+from windopt.solving.exact.bits import NONE
 from windopt.solving.exact.clock import Clock
 from windopt.solving.exact.compiled import compiled
-from windopt.solving.exact.labels import Bound, Labels, Memory, Prices, labels
+from windopt.solving.exact.joins import cheapest, partner
+from windopt.solving.exact.labels import (
+    EPS,
+    UNBOUNDED,
+    Bound,
+    Labels,
+    Memory,
+    Prices,
+    carried,
+    labels,
+)
 from windopt.solving.exact.network import SLACK, Floats, Network, Side
 
 STEPS = 540
@@ -29,11 +40,15 @@ class Completions(NamedTuple):
         By turbine and time left, shape ``(n, steps)``; the turbine's own reward is not in it.
     step
         Width of a step.
+    ahead, behind
+        The forward and backward labels themselves, as far as they matter.
     """
 
     forward: Floats
     backward: Floats
     step: float
+    ahead: Labels
+    behind: Labels
 
 
 @compiled
@@ -60,19 +75,36 @@ def _reached(found: Labels, side: Side, t_max: float, step: float) -> Floats:
 
 @compiled
 def _through(
-    found: Labels, side: Side, pi: Floats, rest: Floats, t_max: float, step: float
+    ahead: Labels,
+    behind: Labels,
+    side: Side,
+    memory: Memory,
+    penalty: Floats,
+    t_max: float,
+    rest: Floats,
+    step: float,
+    pi: Floats,
+    limit: float,
 ) -> Floats:
-    """Return the least cost of a flight over each leg, shape ``(n, n)``."""
+    """Return the least cost of a flight over each leg, ``inf`` beyond ``limit``."""
     n = len(side.first)
     cost = np.full((n, n), np.inf)
-    for a in range(len(found.T)):
-        i = found.node[a]
+    least = cheapest(behind)
+    for a in range(len(ahead.T)):
+        i = ahead.node[a]
         for e in range(side.degree[i]):
             j = side.heads[i, e]
-            t = found.T[a] + side.legs[i, j]
-            if t <= t_max + SLACK:
-                ends = rest[j, int((t_max - t + SLACK) / step)]
-                cost[i, j] = min(cost[i, j], found.C[a] + side.legs[i, j] - pi[j] + ends)
+            so_far = ahead.C[a] + side.legs[i, j]
+            left = t_max - ahead.T[a] - side.legs[i, j] + SLACK
+            below = min(cost[i, j], limit) - so_far + EPS
+            if left < 0.0 or rest[j, int(left / step)] - pi[j] >= below:
+                continue
+            if ahead.V[a] & memory.bit[i, j] != NONE:
+                continue
+            V = carried(ahead.V[a], i, j, memory)
+            best, b = partner(behind, least, j, V, ahead.S, a, left, below, -np.inf, penalty)
+            if b >= 0:
+                cost[i, j] = so_far + best
     return cost
 
 
@@ -94,35 +126,34 @@ def useful_arcs(
     """
     step = network.t_max / STEPS
 
-    def searched(side: Side, horizon: float, bound: Bound) -> Labels | None:
-        found, complete = labels(
-            side, prices, memory, network.t_max, horizon, width, True, bound, capacity, clock.stop
-        )
-        return found if complete else None
+    def both(horizon: float, bounds: tuple[Bound, Bound]) -> tuple[Labels, Labels] | None:
+        found = []
+        for side, bound in zip((network.forward, network.backward), bounds, strict=True):
+            part, complete = labels(
+                side, prices, memory, network.t_max, horizon, width, True, capacity, bound,
+                capacity, clock.stop,
+            )  # fmt: skip
+            if not complete:
+                return None
+            found.append(part)
+        return found[0], found[1]
 
-    def tables(bounds: tuple[Bound, Bound], horizon: float) -> tuple[Labels, Completions] | None:
-        ahead = searched(network.forward, horizon, bounds[0])
-        behind = searched(network.backward, horizon, bounds[1]) if ahead else None
-        if ahead is None or behind is None:
-            return None
-        completions = Completions(
+    def tables(ahead: Labels, behind: Labels) -> tuple[Floats, Floats]:
+        return (
             _reached(behind, network.backward, network.t_max, step),
             _reached(ahead, network.forward, network.t_max, step),
-            step,
         )
-        return ahead, completions
 
-    nothing = Bound(np.zeros((1, 1)), 1.0, np.inf, np.inf)
-    halves = tables((nothing, nothing), network.half)
+    halves = both(network.half, (UNBOUNDED, UNBOUNDED))
     if halves is None:
         return None
-    _, rest = halves
-    bounds = tuple(
-        Bound(table, step, network.half, limit) for table in (rest.forward, rest.backward)
-    )
-    wholes = tables((bounds[0], bounds[1]), network.t_max)
+    forward, backward = (Bound(each, step, network.half, limit) for each in tables(*halves))
+    wholes = both(network.t_max, (forward, backward))
     if wholes is None:
         return None
-    ahead, rest = wholes
-    cost = _through(ahead, network.forward, prices.pi, rest.forward, network.t_max, step)
-    return rest, cost
+    rest = Completions(*tables(*wholes), step, *wholes)
+    through = _through(
+        *wholes, network.forward, memory, prices.penalty, network.t_max, rest.forward, step,
+        prices.pi, limit,
+    )  # fmt: skip
+    return rest, through

@@ -12,26 +12,48 @@ from windopt.solving.exact.search import ProofError, Search
 from windopt.solving.exact.staged_mip import staged_mip
 from windopt.solving.exact.tightening import tighten
 
-SMALLER, SMALLEST = 0.5, 0.1
-"""By what the part of the gap shrinks where its flights are too many, and where to give up."""
+SMALLER, SMALLEST = 0.5, 0.05
+"""By what delta shrinks where flights are too many, and the part of the gap at which to give up."""
 
 
-def close(relaxation: Relaxation, fixing: Fixing, search: Search) -> None:
-    """Close the gap with the flights within it, or as much of it as memory allows."""
-    part = 1.0
-    while part >= SMALLEST:
-        delta = part * (search.ceiling - fixing.value)
+def close(
+    relaxation: Relaxation, fixing: Fixing, reach: float, effort: int, search: Search
+) -> float:
+    """Close the gap with the flights within it, or as much of it as ``effort`` allows.
+
+    Parameters
+    ----------
+    reach
+        The delta to try first, where the gap is wider.
+    effort
+        Half flights to hold at most, for one side of one station; memory may allow fewer.
+
+    Returns
+    -------
+    The delta whose flights were not too many, or the last that was tried.
+    """
+    gap = search.ceiling - fixing.value
+    delta = min(reach, gap)
+    while delta >= SMALLEST * gap:
         networks = fixing.useful(relaxation.pricer.networks, delta)
-        pool = enumerate_flights(networks, fixing, delta, relaxation.memory, search.clock)
-        if pool is None:
-            part *= SMALLER
-            continue
-        _require_plan(pool, relaxation, delta, search)
-        target = min(fixing.value + delta, search.ceiling)
-        tight = tighten(pool, relaxation, target, search)
-        if tight is not None:
-            staged_mip(tight, relaxation.counts, target, search)
-        return
+        pool = enumerate_flights(networks, fixing, delta, effort, relaxation.memory, search.clock)
+        if pool is not None:
+            _choose(pool, relaxation, fixing.value, delta, search)
+            break
+        search.note("too many flights within %.0f %% of the gap", 100 * delta / gap)
+        delta *= SMALLER
+    return delta
+
+
+def _choose(pool: Pool, relaxation: Relaxation, value: float, delta: float, search: Search) -> None:
+    """Look for a plan in ``pool``, all flights of a reduced cost up to ``delta``."""
+    search.note("%d flights within %.3f of %.3f", len(pool), delta, value)
+    _require_plan(pool, relaxation, delta, search)
+    target = min(value + delta, search.ceiling)
+    tight = tighten(pool, relaxation, target, search)
+    if tight is not None:
+        search.note("%d flights left above %.3f", len(tight.pool), tight.value)
+        staged_mip(tight, relaxation.counts, target, search)
 
 
 def _require_plan(pool: Pool, relaxation: Relaxation, delta: float, search: Search) -> None:

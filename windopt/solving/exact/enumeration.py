@@ -16,13 +16,17 @@ from windopt.solving.exact.arc_fixing import Completions
 from windopt.solving.exact.bits import NONE, ONE, bit
 from windopt.solving.exact.clock import Clock
 from windopt.solving.exact.compiled import compiled
-from windopt.solving.exact.labels import Ints, Prices, Words, price_of
+from windopt.solving.exact.joins import cheapest, partner
+from windopt.solving.exact.labels import EPS, Ints, Labels, Memory, Prices, Words, price_of
 from windopt.solving.exact.network import SLACK, Floats, Network, Side
+from windopt.solving.exact.ng_neighbourhoods import WIDEST
 from windopt.solving.exact.pool import Pool, Tree
 from windopt.solving.exact.relaxation import Fixing
 
 HALVES_SHARE, FLIGHTS_SHARE = 0.3, 0.4
 """Shares of the memory that half flights and flights may take."""
+JOINED = 4
+"""Flights to allow for each half flight allowed."""
 BUCKETS = 24
 """Time buckets of half flights in a t_max; few, since each is sorted by cost."""
 
@@ -95,11 +99,25 @@ def _find(slots: Ints, found: Halves, new: int, j: int) -> np.uint64:
 
 
 @compiled
+def _remembered(sets: Words, row: int, j: int, memory: Memory) -> np.uint64:
+    """Return the turbines of a set that j remembers, in j's numbers."""
+    V = NONE
+    for position in range(WIDEST):
+        bit_here = ONE << np.uint64(position)
+        i = memory.member[j, position]
+        if memory.bit[j, i] == bit_here and sets[row, i >> 6] & bit(i) != NONE:
+            V |= bit_here
+    return V
+
+
+@compiled
 def half_flights(
     side: Side,
     prices: Prices,
     rest: Floats,
     step: float,
+    ends: Labels,
+    memory: Memory,
     t_max: float,
     horizon: float,
     limit: float,
@@ -109,6 +127,14 @@ def half_flights(
     """Find the elementary half flights that may be part of a flight of cost ``limit`` or less.
 
     They come in order of size, so that a half flight is final before it is extended.
+
+    Parameters
+    ----------
+    rest, step
+        Table of completion costs, a quick test.
+    ends
+        Labels from the other end, a thorough one: one of them must complete the half flight
+        without returning to it as far as it remembers.
 
     Returns
     -------
@@ -125,6 +151,7 @@ def half_flights(
         np.empty((capacity + 1, words), np.uint64),
     )
     slots = _slots(1 << 16)
+    least = cheapest(ends)
     count, current = 0, -1
     parities = np.empty(words, np.uint64)
     complete = True
@@ -150,6 +177,15 @@ def half_flights(
                 parities[word] = kept ^ prices.inside[j, word]
             if c + rest[j, int((t_max - t + SLACK) / step)] > limit:
                 continue
+            left = t_max - t + SLACK
+            if i >= 0:
+                V = _remembered(found.set, current, j, memory)
+                below = limit - found.C[current] - side.legs[i, j] + EPS
+                _, end = partner(
+                    ends, least, j, V, found.S, current, left, below, below, prices.penalty
+                )
+                if end < 0:
+                    continue
             for word in range(width):
                 found.set[count, word] = found.set[current, word] if i >= 0 else NONE
             found.set[count, j >> 6] |= bit(j)
@@ -312,7 +348,7 @@ def join_halves(
 
 
 def enumerate_flights(
-    networks: list[Network], fixing: Fixing, gap: float, memory: float, clock: Clock
+    networks: list[Network], fixing: Fixing, gap: float, effort: int, memory: float, clock: Clock
 ) -> Pool | None:
     """Return all flights of a reduced cost up to ``gap``.
 
@@ -320,6 +356,9 @@ def enumerate_flights(
     ----------
     networks
         Without the legs of dearer flights.
+    effort
+        Half flights to hold at most, for one side of one station, and a :data:`JOINED`-th of
+        the flights.
     memory
         What half flights and flights may take [bytes].
 
@@ -329,8 +368,8 @@ def enumerate_flights(
     """
     n, prices = len(networks[0].out), fixing.prices
     words, cuts = (n + 63) // 64, prices.memory.shape[1]
-    half_capacity = int(HALVES_SHARE * memory / (2 * (48 + 8 * (words + cuts))))
-    flight_capacity = int(FLIGHTS_SHARE * memory / (60 + 16 * words + n / 4))
+    half_capacity = min(effort, int(HALVES_SHARE * memory / (2 * (48 + 8 * (words + cuts)))))
+    flight_capacity = min(JOINED * effort, int(FLIGHTS_SHARE * memory / (60 + 16 * words + n / 4)))
     sets = Sets(
         np.empty(flight_capacity + 1),
         np.empty(flight_capacity + 1, np.int32),
@@ -342,7 +381,7 @@ def enumerate_flights(
     trees = []
     for d, (network, rest) in enumerate(zip(networks, fixing.completions, strict=True)):
         limit = float(fixing.limits(gap)[d])
-        halves = _both_halves(network, fixing.prices, rest, limit, half_capacity, clock)
+        halves = _both_halves(network, prices, fixing.memory, rest, limit, half_capacity, clock)
         if halves is None:
             return None
         forward, backward = halves
@@ -370,6 +409,7 @@ def enumerate_flights(
 def _both_halves(
     network: Network,
     prices: Prices,
+    memory: Memory,
     rest: Completions,
     limit: float,
     capacity: int,
@@ -377,14 +417,15 @@ def _both_halves(
 ) -> tuple[Halves, Halves] | None:
     """Return the forward and backward half flights, None where there are too many."""
 
-    def halves(side: Side, table: Floats) -> tuple[Halves, bool]:
+    def halves(side: Side, table: Floats, ends: Labels) -> tuple[Halves, bool]:
         return half_flights(
-            side, prices, table, rest.step, network.t_max, network.half, limit, capacity,
-            clock.stop,
+            side, prices, table, rest.step, ends, memory, network.t_max, network.half, limit,
+            capacity, clock.stop,
         )  # fmt: skip
 
     sides, tables = (network.forward, network.backward), (rest.forward, rest.backward)
-    (forward, whole), (backward, whole_too) = clock.map(halves, sides, tables)
+    ends = (rest.behind, rest.ahead)
+    (forward, whole), (backward, whole_too) = clock.map(halves, sides, tables, ends)
     return (forward, backward) if whole and whole_too else None
 
 

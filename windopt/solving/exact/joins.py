@@ -9,11 +9,75 @@ from numpy.typing import NDArray
 
 from windopt.solving.exact.bits import NONE
 from windopt.solving.exact.compiled import compiled
-from windopt.solving.exact.labels import Ints, Labels, Memory, carried, price_of
+from windopt.solving.exact.labels import Ints, Labels, Memory, Words, carried, price_of
 from windopt.solving.exact.network import SLACK, Floats, Side
 
 ALONE = -1
 """The partner of a label that makes a flight by itself."""
+
+
+@compiled
+def cheapest(found: Labels) -> Floats:
+    """Return the least cost of a label in each layer and those before, shape ``(layers, n)``."""
+    layers, n = found.start.shape
+    least = np.full((layers, n), np.inf)
+    for j in range(n):
+        lowest = np.inf
+        for layer in range(layers):
+            if found.end[layer, j] > found.start[layer, j]:
+                lowest = min(lowest, found.C[found.start[layer, j]])
+            least[layer, j] = lowest
+    return least
+
+
+@compiled
+def partner(
+    found: Labels,
+    least: Floats,
+    j: int,
+    V: np.uint64,
+    S: Words,
+    row: int,
+    left: float,
+    below: float,
+    enough: float,
+    penalty: Floats,
+) -> tuple[float, int]:
+    """Find the cheapest label at j that goes with turbines V and parities ``S[row]``.
+
+    Parameters
+    ----------
+    least
+        Of :func:`cheapest`.
+    left
+        Longest time of the label.
+    below, enough
+        Cost that the label must keep below, and cost that needs no improvement.
+
+    Returns
+    -------
+    Its cost with the penalties of the join, and the label; ``below`` and :data:`ALONE` where
+    there is none.
+    """
+    best, label = below, ALONE
+    for layer in range(len(least)):
+        if found.opens[layer] > left:
+            break
+        if least[layer, j] >= best:
+            continue
+        for b in range(found.start[layer, j], found.end[layer, j]):
+            cost = found.C[b]
+            if cost >= best:
+                break
+            if found.T[b] > left or found.V[b] & V != NONE:
+                continue
+            for word in range(S.shape[1]):
+                cost += price_of(S[row, word] & found.S[b, word], word, penalty)
+            if cost < best:
+                best, label = cost, b
+                if best <= enough:
+                    return best, label
+    return best, label
 
 
 @compiled
@@ -43,53 +107,28 @@ def join(
     Cost of each forward label's best flight, ``limit`` where there is none below it, and the
     backward label it joins, :data:`ALONE` for none.
     """
-    layers, n = backward.start.shape
-    least = np.full((layers, n), np.inf)  # over this layer and those before it
-    for j in range(n):
-        lowest = np.inf
-        for layer in range(layers):
-            if backward.end[layer, j] > backward.start[layer, j]:
-                lowest = min(lowest, backward.C[backward.start[layer, j]])
-            least[layer, j] = lowest
-
+    least = cheapest(backward)
+    last = len(least) - 1
     cost = np.full(len(forward.T), limit)
-    partner = np.full(len(forward.T), ALONE, np.int32)
+    label = np.full(len(forward.T), ALONE, np.int32)
     for f in range(len(forward.T)):
         i = forward.node[f]
         if forward.T[f] + side.last[i] <= t_max + SLACK:
             cost[f] = min(limit, forward.C[f] + side.last[i])
         for e in range(side.degree[i]):
             j = side.heads[i, e]
-            t = forward.T[f] + side.legs[i, j]
-            left = t_max - t + SLACK
-            if t <= half or left < 0.0:
+            leg = side.legs[i, j]
+            left = t_max - forward.T[f] - leg + SLACK
+            below = cost[f] - forward.C[f] - leg
+            if forward.T[f] + leg <= half or left < 0.0 or least[last, j] >= below:
                 continue
-            c = forward.C[f] + side.legs[i, j]
-            V = forward.V[f]
-            known = False
-            for layer in range(layers):
-                if backward.opens[layer] > left:
-                    break
-                if layer + 1 < layers and c + least[layer, j] >= cost[f]:
-                    continue
-                if not known:
-                    if V & memory.bit[i, j] != NONE:
-                        break
-                    V = carried(V, i, j, memory)
-                    known = True
-                for b in range(backward.start[layer, j], backward.end[layer, j]):
-                    total = c + backward.C[b]
-                    if total >= cost[f]:
-                        break
-                    if backward.T[b] > left or backward.V[b] & V != NONE:
-                        continue
-                    for word in range(forward.S.shape[1]):
-                        both = forward.S[f, word] & backward.S[b, word]
-                        total += price_of(both, word, penalty)
-                    if total < cost[f]:
-                        cost[f] = total
-                        partner[f] = b
-    return cost, partner
+            if forward.V[f] & memory.bit[i, j] != NONE:
+                continue
+            V = carried(forward.V[f], i, j, memory)
+            best, b = partner(backward, least, j, V, forward.S, f, left, below, -np.inf, penalty)
+            if b >= 0:
+                cost[f], label[f] = forward.C[f] + leg + best, b
+    return cost, label
 
 
 def alone(

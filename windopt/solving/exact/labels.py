@@ -86,6 +86,10 @@ class Bound(NamedTuple):
     limit: float
 
 
+UNBOUNDED = Bound(np.zeros((1, 1)), 1.0, np.inf, np.inf)
+"""A bound that drops no label."""
+
+
 class Labels(NamedTuple):
     """Labels, layer by layer and turbine by turbine, cheapest first.
 
@@ -176,6 +180,7 @@ def labels(
     horizon: float,
     width: float,
     exact: bool,
+    keep: int,
     bound: Bound,
     capacity: int,
     stop: NDArray[np.uint8],
@@ -188,6 +193,9 @@ def labels(
         Width of a time bucket.
     exact
         Whether dominance respects V and S; without, flights are lost and time is saved.
+    keep
+        Labels to keep of each turbine in each layer, the cheapest; where it is fewer than there
+        are, flights are lost as well.
     bound
         Drops labels that cannot end below its limit.
     capacity
@@ -254,7 +262,7 @@ def labels(
                 waiting[b] -= m
                 for a in order[:m][np.argsort(C[order[:m]])]:
                     following[a], free = free, a
-                    if _dominated(
+                    if count - found.start[layer, j] == keep or _dominated(
                         T[a], C[a], V[a], S, a, j, found, checked[a] + 1, layer,
                         prices.penalty, exact,
                     ):  # fmt: skip

@@ -16,10 +16,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from windopt.solving.exact.clock import Clock
 from windopt.solving.exact.compiled import compiled
 from windopt.solving.exact.labels import Ints
 from windopt.solving.exact.network import SLACK, Floats, Network
+from windopt.solving.exact.search import Flight, Search
 
 REMOVED = 10.0
 """Turbines to tear out in one ruin, on average ([1]_, section 6.2)."""
@@ -27,15 +27,17 @@ STRING = 10
 """Longest string to tear out of one flight ([1]_, section 6.2)."""
 BLINK = 0.01
 """Share of places that a recreation overlooks ([1]_, section 6.2)."""
+ITERATIONS = 300
+"""Ruins and recreations for each turbine."""
+RUNS = 2
+"""Runs side by side, each with random numbers of its own."""
 CLOSE = 40
 """Nearest turbines beside which a turbine is put back; farther ones seldom cost least."""
-HOT, COLD = 2.0, 0.03
+HOT, COLD = 5.0, 0.03
 """First and last temperature, as fractions of the shortest leg of a typical turbine."""
 FAR = 1e6
 """Time of a leg that cannot be flown: finite, so that it can be taken back."""
 NOWHERE = -1
-
-Flight = tuple[int, tuple[int, ...]]
 
 
 class Legs(NamedTuple):
@@ -257,25 +259,15 @@ def _clone(tours: Tours) -> Tours:
     )
 
 
-def improve(
-    networks: list[Network],
-    flights: Sequence[Flight],
-    clock: Clock,
-    *,
-    iterations: int,
-    seed: int,
-) -> list[Flight]:
-    """Return a plan no worse than ``flights``.
+def improve(search: Search, seed: int) -> None:
+    """Offer the search better plans than its own: one from each of :data:`RUNS` runs.
 
     Parameters
     ----------
-    flights
-        A plan of all turbines: the station and the path of each flight.
-    iterations
-        How often to ruin and recreate.
     seed
         Of the random numbers, which are the compiled code's own.
     """
+    networks = search.networks
     legs = Legs(
         np.array([network.out for network in networks]),
         np.array([np.where(np.isfinite(network.legs), network.legs, FAR) for network in networks]),
@@ -287,10 +279,16 @@ def improve(
     np.fill_diagonal(distance, -1.0)
     near = np.argsort(distance, axis=1, kind="stable").astype(np.int32)
     remoteness = (legs.out + legs.back).min(axis=0)
-    temperatures = typical * np.geomspace(HOT, COLD, iterations)
-    tours = _tours(networks, flights)
-    clock.map(_anneal, [tours], [legs], [near], [remoteness], [temperatures], [seed], [clock.stop])
-    return _flights(tours)
+    temperatures = typical * np.geomspace(HOT, COLD, ITERATIONS * search.n)
+
+    def run(tours: Tours, number: int) -> None:
+        stop = search.clock.stop
+        _anneal(tours, legs, near, remoteness, temperatures, RUNS * seed + number, stop)
+
+    plans = [_tours(networks, search.flights) for _ in range(RUNS)]
+    search.clock.map(run, plans, range(RUNS))
+    for plan in plans:
+        search.offer(_flights(plan))
 
 
 def _tours(networks: list[Network], flights: Sequence[Flight]) -> Tours:

@@ -6,7 +6,7 @@ import numpy as np
 
 from windopt.solving.exact.clock import Clock
 from windopt.solving.exact.joins import ALONE, alone, join
-from windopt.solving.exact.labels import Bound, Labels, Memory, Prices, labels, path
+from windopt.solving.exact.labels import UNBOUNDED, Labels, Memory, Prices, labels, path
 from windopt.solving.exact.master import Duals, Master
 from windopt.solving.exact.network import Floats, Network, Side
 from windopt.solving.exact.ng_neighbourhoods import Neighbourhoods
@@ -16,8 +16,6 @@ TOLERANCE = 1e-6
 """Reduced costs above minus this are not negative: the master's duals are no better."""
 PER_STATION = 40
 """Flights to return for each station."""
-
-UNBOUNDED = Bound(np.zeros((1, 1)), 1.0, np.inf, np.inf)
 
 
 @dataclass(frozen=True)
@@ -58,7 +56,9 @@ class Pricer:
     clock: Clock
     capacity: int
 
-    def price(self, master: Master, duals: Duals, *, exact: bool) -> Priced:
+    def price(
+        self, master: Master, duals: Duals, *, exact: bool, keep: int | None = None
+    ) -> Priced:
         """Find flights of negative reduced cost.
 
         Parameters
@@ -73,7 +73,7 @@ class Pricer:
         def half(side: Side, network: Network) -> tuple[Labels, bool]:
             return labels(
                 side, prices, memory, network.t_max, network.half, bucket(network), exact,
-                UNBOUNDED, self.capacity, self.clock.stop,
+                keep or self.capacity, UNBOUNDED, self.capacity, self.clock.stop,
             )  # fmt: skip
 
         twice = [network for network in self.networks for _ in range(2)]

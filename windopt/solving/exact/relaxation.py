@@ -6,7 +6,7 @@ from math import inf
 import numpy as np
 
 from windopt.solving.exact.arc_fixing import Completions, useful_arcs
-from windopt.solving.exact.labels import LABEL_BYTES, Prices
+from windopt.solving.exact.labels import LABEL_BYTES, Memory, Prices
 from windopt.solving.exact.master import Duals, Master
 from windopt.solving.exact.network import Floats, Network
 from windopt.solving.exact.ng_neighbourhoods import nearest
@@ -34,6 +34,8 @@ class Fixing:
         The bound that the duals prove.
     prices, toll
         What the duals ask of turbines and cuts, and of a flight from each station.
+    memory
+        The neighbourhoods.
     completions
         Least cost of the rest of a flight, for each station.
     through
@@ -42,6 +44,7 @@ class Fixing:
 
     value: float
     prices: Prices
+    memory: Memory
     toll: Floats
     completions: list[Completions]
     through: list[Floats]
@@ -64,8 +67,8 @@ class Relaxation:
     ----------
     counts
         Least and largest number of flights of each station, and of all, shape ``(k + 1, 2)``.
-    duals
-        Of the last solution.
+    duals, least
+        Of the last solution, and the least reduced cost that its rounding leaves.
     """
 
     search: Search
@@ -74,6 +77,7 @@ class Relaxation:
     master: Master = field(init=False)
     pricer: Pricer = field(init=False)
     duals: Duals = field(init=False)
+    least: float = field(init=False)
 
     def __post_init__(self) -> None:
         networks = self.search.networks
@@ -104,7 +108,7 @@ class Relaxation:
         while True:
             self.duals = self.master.solve(self.search.clock)
             if not exact:
-                priced = self.pricer.price(self.master, self.duals, exact=False)
+                priced = self.pricer.price(self.master, self.duals, exact=False, keep=2)
                 exact = not self.master.add(priced.columns)
                 continue
             trial = self.duals if centre is None else self.duals.towards(centre, 0.5)
@@ -117,7 +121,10 @@ class Relaxation:
             if bound > best:
                 best, centre = bound, trial
             added = self.master.add(priced.columns)
-            if trial is self.duals and least >= -TOLERANCE:
+            if trial is self.duals and (least >= -TOLERANCE or not added):
+                self.least = min(least, -TOLERANCE)
+                cuts = len(self.master.cuts)
+                self.search.note("%d columns, %d cuts", len(self.master.columns), cuts)
                 return
             if added:
                 exact = False
@@ -148,6 +155,7 @@ class Relaxation:
 
     def add_cuts(self) -> bool:
         """Cut off the fractional solution, and tell whether that was possible."""
+        self.duals = self.master.solve(self.search.clock)
         cuts = separate(self.master.cuts.kept(self.duals.penalty > TOLERANCE), self.master.flown())
         if cuts is None:
             return False
@@ -163,11 +171,12 @@ class Relaxation:
         """
         clock, networks = self.search.clock, self.pricer.networks
         prices = self.master.cuts.prices(self.duals.pi, self.duals.penalty)
-        value = self.duals.value(self.counts) - TOLERANCE * self.search.most_flights
+        value = self.duals.value(self.counts) + self.least * self.search.most_flights
         gap = self.search.ceiling - value
 
+        memory = self.pricer.neighbourhoods.memory
+
         def fix(network: Network, limit: float) -> tuple[Completions, Floats] | None:
-            memory = self.pricer.neighbourhoods.memory
             capacity = self.pricer.capacity
             return useful_arcs(network, prices, memory, bucket(network), limit, capacity, clock)
 
@@ -175,8 +184,9 @@ class Relaxation:
         if any(each is None for each in found):
             return None
         completions, through = zip(*found, strict=True)
-        fixing = Fixing(value, prices, self.duals.toll, list(completions), list(through))
+        fixing = Fixing(value, prices, memory, self.duals.toll, list(completions), list(through))
         networks = fixing.useful(networks, gap)
         self.pricer = replace(self.pricer, networks=networks)
         self.master.restrict(networks)
+        self.search.note("%d legs of use", sum(int(each.arcs.sum()) for each in networks))
         return fixing

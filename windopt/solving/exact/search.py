@@ -1,6 +1,7 @@
 """The state of a search: the best plan, the bound, and the time left."""
 
 from collections.abc import Callable, Sequence
+from logging import getLogger
 from math import inf
 
 import numpy as np
@@ -9,6 +10,8 @@ from numpy.typing import NDArray
 from windopt.domain.routing import Route, RoutingInstance
 from windopt.solving.exact.clock import Clock
 from windopt.solving.exact.network import SLACK, Floats, Network, networks
+
+LOGGER = getLogger("windopt.column_generation")
 
 CLOSED = 1e-6
 """Bound and objective this close are equal, in thousandths of t_max / 1000."""
@@ -111,6 +114,11 @@ class Search:
     def routes(self) -> tuple[Route, ...]:
         """Return the best plan."""
         return tuple(Route(d, path) for d, path in sorted(self.flights))
+
+    def note(self, what: str, *values: object) -> None:
+        """Write a line to the log: time, what was done, plan and bound."""
+        state = (self.clock.elapsed, self.objective * self.unit, self.bound * self.unit)
+        LOGGER.debug("%7.2f s  plan %.2f  bound %.2f  " + what, *state, *values)
 
     def _tell(self) -> None:
         if self._progress and self.flights:

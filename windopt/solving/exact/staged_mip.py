@@ -54,6 +54,7 @@ def _branch_and_bound(
     model.setOptionValue("mip_abs_gap", CLOSED)
     status = search.clock.minimise(model)
     info = model.getInfo()
+    search.note("%d flights, %d nodes", rows, info.mip_node_count)
     if status == highspy.HighsModelStatus.kInfeasible:
         search.prove(delta)
         return
