@@ -1,17 +1,18 @@
 r"""Inspection by set partitioning: choose among flights that are known in advance.
 
 Flight r of the set :math:`R` takes the time :math:`c_r`, visits turbine i :math:`a_{ir}` times
-and starts from station :math:`d(r)`; :math:`x_r` says whether it is flown.
+and starts from station :math:`d(r)`; :math:`x_r` says whether it is flown, and :math:`y_i`
+whether turbine i is left out at a price :math:`p_i`.
 
 .. math::
 
-    \min_x \quad & \sum_{r \in R} c_r x_r                                          \tag{1} \\
-    \text{s.t.} \quad & \sum_r a_{ir} x_r = 1 & i = 1, \dots, n                     \tag{2} \\
+    \min_{x, y} \quad & \sum_{r \in R} c_r x_r + \sum_i p_i y_i                   \tag{1} \\
+    \text{s.t.} \quad & \sum_r a_{ir} x_r + y_i = 1 & i = 1, \dots, n               \tag{2} \\
       & l_d \le \sum_{r : d(r) = d} x_r \le u_d & d = 1, \dots, k                   \tag{3} \\
       & l_0 \le \sum_r x_r \le u_0                                                  \tag{4} \\
       & \sum_r \Bigl\lfloor \tfrac12 \sum_{i \in S} a_{ir} \Bigr\rfloor x_r \le 1
         & |S| = 3                                                                   \tag{5} \\
-      & x_r \in \{0, 1\}                                                            \tag{6}
+      & x_r, y_i \in \{0, 1\}                                                       \tag{6}
 
 Where flights obey the triangle inequality (2) may read :math:`\ge 1`, and its relaxation is then
 the master of column generation: flights are added as they are found, by
@@ -83,6 +84,7 @@ def set_partitioning(
     *,
     integer: bool = True,
     cover: bool = False,
+    price: float | None = None,
 ) -> SetPartitioning:
     """Build the rows (2)-(4); flights come later.
 
@@ -96,6 +98,9 @@ def set_partitioning(
         Whether to ask for (6), or for x >= 0 only.
     cover
         Whether (2) reads >= 1.
+    price
+        The price p of leaving a turbine out; None where none may be. The first n columns are
+        then y.
     """
     model = highspy.Highs()
     model.silent()
@@ -104,4 +109,11 @@ def set_partitioning(
         model.addRow(1.0, INF if cover else 1.0, 0, nothing, np.array([]))  # (2)
     for lower, upper in counts:
         model.addRow(float(lower), float(upper), 0, nothing, np.array([]))  # (3), (4)
-    return SetPartitioning(model, n, len(counts) - 1, integer)
+    program = SetPartitioning(model, n, len(counts) - 1, integer)
+    if price is not None:
+        each = np.arange(n)
+        program.add_flights(
+            np.full(n, price),
+            csc_array((np.ones(n), (each, each)), shape=(n + len(counts), n)),
+        )  # y
+    return program

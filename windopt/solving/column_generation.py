@@ -101,7 +101,7 @@ def _prove(search: Search, memory: float) -> None:
     relaxation.solve()
     while relaxation.grow_neighbourhoods():
         relaxation.solve()
-    effort, reach = EFFORT, inf
+    effort, reach = float(EFFORT), inf
     while not search.closed:
         fixing = relaxation.fix_arcs()
         if fixing is not None:

@@ -10,6 +10,7 @@ every time. A leg is of no use when the best flight over it costs more than the 
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from windopt.solving.exact.bits import NONE
 from windopt.solving.exact.clock import Clock
@@ -85,12 +86,15 @@ def _through(
     step: float,
     pi: Floats,
     limit: float,
+    stop: NDArray[np.uint8],
 ) -> Floats:
     """Return the least cost of a flight over each leg, ``inf`` beyond ``limit``."""
     n = len(side.first)
     cost = np.full((n, n), np.inf)
     least = cheapest(behind)
     for a in range(len(ahead.T)):
+        if stop[0] != 0:
+            break
         i = ahead.node[a]
         for e in range(side.degree[i]):
             j = side.heads[i, e]
@@ -154,6 +158,6 @@ def useful_arcs(
     rest = Completions(*tables(*wholes), step, *wholes)
     through = _through(
         *wholes, network.forward, memory, prices.penalty, network.t_max, rest.forward, step,
-        prices.pi, limit,
+        prices.pi, limit, clock.stop,
     )  # fmt: skip
     return rest, through

@@ -5,7 +5,7 @@ when time is up, and when the user interrupts, whom the waiting main thread can 
 """
 
 from collections.abc import Callable, Iterable
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import ThreadPoolExecutor, wait
 from os import cpu_count
 from threading import Timer
 from time import perf_counter
@@ -14,6 +14,10 @@ from typing import Any, Self
 
 import highspy
 import numpy as np
+
+
+POLL = 0.1
+"""How often the main thread listens for an interrupt [s]."""
 
 
 class OutOfTime(Exception):  # noqa: N818  (a way out of nested loops, not a mistake)
@@ -75,11 +79,14 @@ class Clock:
         self.check()
         futures = [self.workers.submit(function, *each) for each in zip(*arguments, strict=True)]
         try:
+            while wait(futures, timeout=POLL).not_done:
+                pass  # between two waits Python hears the user
             results = [future.result() for future in futures]
         except BaseException:
             self.halt()
             for future in futures:
                 future.cancel()
+            wait(futures)
             raise
         self.check()
         return results

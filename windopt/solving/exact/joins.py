@@ -90,6 +90,7 @@ def join(
     t_max: float,
     half: float,
     limit: float,
+    stop: NDArray[np.uint8],
 ) -> tuple[Floats, Ints]:
     """Find the best flight through each forward label.
 
@@ -101,6 +102,8 @@ def join(
         The moment at which labels meet.
     limit
         Flights of this cost and above are of no interest.
+    stop
+        Set to non-zero by another thread to end the search.
 
     Returns
     -------
@@ -112,6 +115,8 @@ def join(
     cost = np.full(len(forward.T), limit)
     label = np.full(len(forward.T), ALONE, np.int32)
     for f in range(len(forward.T)):
+        if stop[0] != 0:
+            break
         i = forward.node[f]
         if forward.T[f] + side.last[i] <= t_max + SLACK:
             cost[f] = min(limit, forward.C[f] + side.last[i])

@@ -279,6 +279,8 @@ def labels(
                     found.end[layer, j] = count
 
             for a in range(found.start[layer, 0], count):
+                if stop[0] != 0:
+                    return _cut(found, count, layer), False
                 i = found.node[a]
                 for e in range(side.degree[i]):
                     j = side.heads[i, e]

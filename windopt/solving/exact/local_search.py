@@ -286,9 +286,11 @@ def improve(search: Search, seed: int) -> None:
         _anneal(tours, legs, near, remoteness, temperatures, RUNS * seed + number, stop)
 
     plans = [_tours(networks, search.flights) for _ in range(RUNS)]
-    search.clock.map(run, plans, range(RUNS))
-    for plan in plans:
-        search.offer(_flights(plan))
+    try:
+        search.clock.map(run, plans, range(RUNS))
+    finally:
+        for plan in plans:
+            search.offer(_flights(plan))
 
 
 def _tours(networks: list[Network], flights: Sequence[Flight]) -> Tours:

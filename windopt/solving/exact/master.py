@@ -95,15 +95,11 @@ class Master:
         """Start anew with ``columns`` and, where given, ``cuts``."""
         columns = list(columns)
         self.cuts = self.cuts if cuts is None else cuts
-        self._program = set_partitioning(self.n, self.counts, integer=False, cover=True)
-        nothing = csr_array((len(self.cuts), 0))
-        self._program.add_subset_rows(nothing)
-        artificial = csc_array(
-            (np.ones(self.n), (np.arange(self.n), np.arange(self.n))),
-            shape=(self.n + len(self.counts) + len(self.cuts), self.n),
+        price = MISSING * max(network.t_max for network in self.networks)
+        self._program = set_partitioning(
+            self.n, self.counts, integer=False, cover=True, price=price
         )
-        cost = MISSING * max(network.t_max for network in self.networks)
-        self._program.add_flights(np.full(self.n, cost), artificial)
+        self._program.add_subset_rows(csr_array((len(self.cuts), self.n)))
         self.columns, self._known = [], set()
         self.add(columns)
 

@@ -85,12 +85,15 @@ class Pool:
         same = (self.sets == packed(wanted)).all(axis=1)
         return bool((self.cost[same] <= cost + 1e-6).any())
 
-    def slices(self, n: int) -> Words:
+    def slices(self, n: int, clock: Clock) -> Words:
         """Return each turbine's flights as bits, shape ``(n, words over flights)``."""
-        rows = range(0, max(1, len(self)), PART)
-        parts = (self.kept(np.arange(i, min(i + PART, len(self)))) for i in rows)
-        words = [packed(np.ascontiguousarray(part.members(n).T)) for part in parts]
-        return np.ascontiguousarray(np.concatenate(words, axis=1))
+
+        def turned(first: int) -> Words:
+            part = self.kept(np.arange(first, min(first + PART, len(self))))
+            return packed(np.ascontiguousarray(part.members(n).T))
+
+        parts = clock.map(turned, range(0, max(1, len(self)), PART))
+        return np.ascontiguousarray(np.concatenate(parts, axis=1))
 
 
 @compiled

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from windopt.solving.exact.clock import Clock
 from windopt.solving.exact.joins import ALONE, alone, join
@@ -82,7 +83,7 @@ class Pricer:
 
         def joined(d: int, limit: float) -> tuple[list[Column], float]:
             forward, backward = halves[2 * d][0], halves[2 * d + 1][0]
-            return _best(master, d, forward, backward, memory, prices, limit)
+            return _best(master, d, forward, backward, memory, prices, limit, self.clock.stop)
 
         stations = range(len(self.networks))
         found = self.clock.map(joined, stations, duals.toll - TOLERANCE)
@@ -106,12 +107,13 @@ def _best(
     memory: Memory,
     prices: Prices,
     limit: float,
+    stop: NDArray[np.uint8],
 ) -> tuple[list[Column], float]:
     """Return the cheapest flights of station d below ``limit``, and the least cost."""
     network = master.networks[d]
     cost, partner = join(
         forward, backward, network.forward, memory, prices.penalty, network.t_max, network.half,
-        limit,
+        limit, stop,
     )  # fmt: skip
     lone, lone_cost = alone(backward, network.forward, network.t_max, network.half)
     below = lone_cost < limit

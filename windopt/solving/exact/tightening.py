@@ -7,7 +7,7 @@ hundred; each round raises the bound and drops the flights beyond the gap that i
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import csc_array, csr_array, vstack
+from scipy.sparse import csc_array, csr_array, hstack, vstack
 
 from formulations.set_partitioning import set_partitioning
 from windopt.solving.exact.clock import Clock
@@ -48,13 +48,21 @@ class Tightened:
 
 
 class Selection:
-    """A linear program over the flights of a pool that seem to matter."""
+    """A linear program over the flights of a pool that seem to matter.
 
-    def __init__(self, n: int, counts: Floats, triples: Triples) -> None:
+    Parameters
+    ----------
+    triples
+        The subset rows to begin with.
+    price
+        Of leaving a turbine out, so dear that a plan of interest leaves out none.
+    """
+
+    def __init__(self, n: int, counts: Floats, triples: Triples, price: float) -> None:
         self.n, self.counts, self.triples = n, counts, triples
         self.members: Bools = np.zeros((0, n), bool)
-        self._program = set_partitioning(n, counts, integer=False, cover=True)
-        self._program.add_subset_rows(csr_array((len(triples), 0)))
+        self._program = set_partitioning(n, counts, integer=False, cover=True, price=price)
+        self._program.add_subset_rows(csr_array((len(triples), n)))
 
     def add(self, pool: Pool) -> None:
         """Add the flights of ``pool``."""
@@ -65,7 +73,9 @@ class Selection:
 
     def cut(self, triples: Triples) -> None:
         """Add subset rows."""
-        self._program.add_subset_rows(csr_array(pairs(self.members, triples).T.astype(float)))
+        flights = csr_array(pairs(self.members, triples).T.astype(float))
+        left_out = csr_array((len(triples), self.n))
+        self._program.add_subset_rows(csr_array(hstack([left_out, flights])))
         self.triples = np.vstack([self.triples, triples])
 
     def solve(self, clock: Clock) -> tuple[Duals, Floats]:
@@ -78,7 +88,7 @@ class Selection:
         duals = Duals(
             np.maximum(dual[: self.n], 0.0), dual[self.n : rows], np.maximum(-dual[rows:], 0.0)
         )
-        return duals, np.array(solution.col_value)
+        return duals, np.array(solution.col_value)[self.n :]
 
 
 def pairs(members: Bools, triples: Triples) -> Bools:
@@ -112,18 +122,18 @@ def tighten(pool: Pool, relaxation: Relaxation, target: float, search: Search) -
     What is left; None where no flight is, so that ``target`` is a bound.
     """
     duals, triples, counts = relaxation.duals, relaxation.master.cuts.triples, relaxation.counts
-    inspection = Inspection(pool, pool.slices(search.n))
+    inspection = Inspection(pool, pool.slices(search.n, search.clock))
     reduced = inspection.reduced_costs(duals, triples, search.clock)
     gap = target - duals.value(counts) + MARGIN
     pool, reduced = pool.kept(reduced <= gap), reduced[reduced <= gap]
-    selection = Selection(search.n, counts, triples)
+    selection = Selection(search.n, counts, triples, search.ceiling)
     chosen = np.argsort(reduced, kind="stable")[:FIRST]
     selection.add(pool.kept(chosen))
     inside = np.zeros(len(pool), bool)
     inside[chosen] = True
     before = -np.inf
     for _ in range(ROUNDS):
-        inspection = Inspection(pool, pool.slices(search.n))
+        inspection = Inspection(pool, pool.slices(search.n, search.clock))
         while True:
             duals, x = selection.solve(search.clock)
             reduced = inspection.reduced_costs(duals, selection.triples, search.clock)

@@ -1,0 +1,132 @@
+"""Pricing, enumeration and cuts against a look at every flight."""
+
+from itertools import permutations
+from math import inf
+
+import numpy as np
+import pytest
+
+from windopt.domain.routing import RoutingInstance
+from windopt.solving.exact.clock import Clock
+from windopt.solving.exact.enumeration import enumerate_flights
+from windopt.solving.exact.master import Duals
+from windopt.solving.exact.ng_neighbourhoods import Neighbourhoods
+from windopt.solving.exact.relaxation import Relaxation
+from windopt.solving.exact.search import Search, alone
+from windopt.solving.exact.subset_row_cuts import Cuts
+
+
+def instance(seed, n=7, k=2):
+    """Return a small farm with times that differ by direction."""
+    rng = np.random.default_rng(seed)
+    stations, turbines = rng.uniform(0, 1000, (k, 2)), rng.uniform(0, 1000, (n, 2))
+    t = np.empty((k, n + 1, n + 1))
+    for d in range(k):
+        nodes = np.vstack([stations[d : d + 1], turbines])
+        leg = nodes[None] - nodes[:, None]
+        t[d] = np.hypot(leg[..., 0], leg[..., 1]) + 0.3 * np.abs(leg[..., 0]) + 0.2 * leg[..., 1]
+    t_max = np.full(k, 1.4 * (t[:, 0, 1:] + t[:, 1:, 0]).max())
+    allowed = np.ones((k, n), bool)
+    return RoutingInstance(t, t_max, stations, turbines, np.zeros(2), allowed)
+
+
+def flights(networks):
+    """Return every flight without cycles: station, path, time."""
+    found = []
+    for d, network in enumerate(networks):
+        n = len(network.out)
+        for size in range(1, n + 1):
+            for path in permutations(range(n), size):
+                time = network.duration(path)
+                if time <= network.t_max:
+                    found.append((d, path, time))
+    return found
+
+
+def reduced_cost(duals, cuts, flight):
+    d, path, time = flight
+    pairs = np.isin(cuts.triples, path).sum(axis=1) >= 2
+    return time - duals.pi[list(path)].sum() - duals.toll[d] + duals.penalty[pairs].sum()
+
+
+def random_duals(rng, relaxation, m):
+    n, k = relaxation.search.n, len(relaxation.search.networks)
+    pi = rng.uniform(0, 500, n)
+    return Duals(pi, rng.uniform(-100, 50, k + 1), rng.uniform(0, 200, m))
+
+
+@pytest.fixture(params=range(6))
+def setting(request):
+    """Return a search, its relaxation with all turbines remembered, and some cuts."""
+    rng = np.random.default_rng(request.param)
+    with Clock(60.0) as clock:
+        search = Search(instance(request.param), clock)
+        search.offer(alone(search.networks))
+        relaxation = Relaxation(search, 1e9, np.tile([0.0, inf], (3, 1)))
+        everything = frozenset(range(search.n))
+        object.__setattr__(
+            relaxation.pricer, "neighbourhoods", Neighbourhoods((everything,) * search.n)
+        )
+        triples = np.array([sorted(rng.choice(search.n, 3, replace=False)) for _ in range(3)])
+        triples = np.unique(triples, axis=0)
+        cuts = Cuts(triples, np.ones((len(triples), search.n), bool))
+        relaxation.master.rebuild(relaxation.master.columns, cuts)
+        yield search, relaxation, random_duals(rng, relaxation, len(triples))
+
+
+def test_the_least_reduced_cost_is_found(setting):
+    search, relaxation, duals = setting
+    priced = relaxation.pricer.price(relaxation.master, duals, exact=True)
+    costs = [
+        (flight[0], reduced_cost(duals, relaxation.master.cuts, flight))
+        for flight in flights(search.networks)
+    ]
+    for d in range(2):
+        least = min(cost for station, cost in costs if station == d)
+        assert priced.least[d] == pytest.approx(min(0.0, least), abs=1e-5)
+
+
+def test_flights_found_are_as_cheap_as_they_claim(setting):
+    search, relaxation, duals = setting
+    priced = relaxation.pricer.price(relaxation.master, duals, exact=False, keep=2)
+    for d, path, time in priced.columns:
+        assert time == pytest.approx(search.networks[d].duration(path))
+        assert time <= search.networks[d].t_max + 1e-6
+        assert reduced_cost(duals, relaxation.master.cuts, (d, path, time)) < 0
+
+
+def test_all_flights_within_the_gap_are_listed_and_no_others(setting):
+    search, relaxation, _ = setting
+    relaxation.solve()
+    fixing = relaxation.fix_arcs()
+    gap = 0.3 * (search.ceiling - fixing.value)
+    networks = fixing.useful(relaxation.pricer.networks, gap)
+    pool = enumerate_flights(networks, fixing, gap, 100_000, 1e9, search.clock)
+    wanted = {}
+    for flight in flights(search.networks):
+        if reduced_cost(relaxation.duals, relaxation.master.cuts, flight) <= gap:
+            key = frozenset(flight[1])
+            wanted[key] = min(wanted.get(key, inf), flight[2])
+    listed = {frozenset(pool.path(r)): pool.cost[r] for r in range(len(pool))}
+    assert wanted.keys() <= listed.keys()
+    for key, time in wanted.items():
+        assert listed[key] == pytest.approx(time)
+    for r in range(len(pool)):
+        duration = search.networks[pool.station[r]].duration(pool.path(r))
+        assert duration == pytest.approx(pool.cost[r])
+
+
+def test_a_cut_that_remembers_everything_counts_every_second_visit():
+    rng = np.random.default_rng(0)
+    triples = np.array([[0, 1, 2], [1, 4, 6]])
+    cuts = Cuts(triples, np.ones((2, 8), bool))
+    paths = [tuple(rng.integers(0, 8, size).tolist()) for size in (1, 3, 5, 9)]
+    visits = np.array([[np.isin(path, triple).sum() for path in paths] for triple in triples])
+    assert (cuts.coefficients(paths) == visits // 2).all()
+
+
+def test_a_cut_forgets_a_visit_outside_its_memory():
+    memory = np.zeros((1, 5), bool)
+    memory[0, [0, 1, 2]] = True
+    cuts = Cuts(np.array([[0, 1, 2]]), memory)
+    assert cuts.coefficients([(0, 1), (0, 3, 1), (0, 3, 1, 2)]).tolist() == [[1.0, 0.0, 1.0]]
