@@ -111,6 +111,17 @@ def test_optimum_equals_enumeration_on_many_more(block):
         assert result.objective == pytest.approx(best, rel=1e-9), seed
 
 
+@pytest.mark.parametrize("seed", range(300, 340))
+def test_branching_finds_the_same_optimum(monkeypatch, seed):
+    monkeypatch.setattr("windopt.solving.exact.staged_mip.SIZES", (1,))
+    monkeypatch.setattr("windopt.solving.exact.tightening.ROUNDS", 1)
+    monkeypatch.setattr("windopt.solving.exact.local_search.ITERATIONS", 0)
+    instance = random_instance(seed)
+    result = column_generation(instance, time_limit=20.0)
+    assert result.objective == pytest.approx(optimum(instance), rel=1e-9)
+    assert result.status is (Status.OPTIMAL if result.solution else Status.INFEASIBLE)
+
+
 def grid(side, t_max, spacing=700.0, wind=8.0):
     """Return a square farm with one station in its middle."""
     x, y = np.meshgrid(spacing * np.arange(side), spacing * np.arange(side))

@@ -15,7 +15,6 @@ from typing import Any, Self
 import highspy
 import numpy as np
 
-
 POLL = 0.1
 """How often the main thread listens for an interrupt [s]."""
 

@@ -5,11 +5,11 @@ of the whole gap are too many, those of a smaller delta either hold a better pla
 shrinks, or prove value + delta.
 """
 
+from windopt.solving.exact.branching import branch
 from windopt.solving.exact.enumeration import enumerate_flights
-from windopt.solving.exact.pool import Pool
-from windopt.solving.exact.relaxation import Fixing, Relaxation
+from windopt.solving.exact.pool import Pool, reduced_costs
+from windopt.solving.exact.relaxation import MARGIN, Fixing, Relaxation
 from windopt.solving.exact.search import ProofError, Search
-from windopt.solving.exact.staged_mip import staged_mip
 from windopt.solving.exact.tightening import tighten
 
 SMALLER, SMALLEST = 0.5, 0.05
@@ -50,10 +50,15 @@ def _choose(pool: Pool, relaxation: Relaxation, value: float, delta: float, sear
     search.note("%d flights within %.3f of %.3f", len(pool), delta, value)
     _require_plan(pool, relaxation, delta, search)
     target = min(value + delta, search.ceiling)
-    tight = tighten(pool, relaxation, target, search)
+    triples = relaxation.master.cuts.triples
+    slices = pool.slices(search.n, search.clock)
+    reduced = reduced_costs(pool, slices, relaxation.duals, triples, search.clock)
+    keep = reduced <= delta + MARGIN
+    pool, reduced = pool.kept(keep), reduced[keep]
+    tight = tighten(pool, reduced, triples, relaxation.counts, target, search, search.prove)
     if tight is not None:
         search.note("%d flights left above %.3f", len(tight.pool), tight.value)
-        staged_mip(tight, relaxation.counts, target, search)
+        branch(tight, relaxation.counts, target, search)
 
 
 def _require_plan(pool: Pool, relaxation: Relaxation, delta: float, search: Search) -> None:

@@ -1,8 +1,7 @@
 """Enumeration: all flights of a reduced cost below the gap, each set of turbines once.
 
-Half flights of all elementary orders are hashed on their last turbine and their set, keeping the
-fastest, and pruned by the completion tables; joined, they are hashed on their set alone, keeping
-the fastest over all stations. A plan cheaper than dual bound + gap uses no other flight [1]_.
+Half flights are joined, and the flights hashed on their set, keeping the fastest over all
+stations. A plan cheaper than dual bound + gap uses no other flight [1]_.
 
 .. [1] Baldacci, Christofides & Mingozzi (2008), *Mathematical Programming* 115, 351-385.
 """
@@ -16,10 +15,10 @@ from windopt.solving.exact.arc_fixing import Completions
 from windopt.solving.exact.bits import NONE, ONE, bit
 from windopt.solving.exact.clock import Clock
 from windopt.solving.exact.compiled import compiled
-from windopt.solving.exact.joins import cheapest, partner
-from windopt.solving.exact.labels import EPS, Ints, Labels, Memory, Prices, Words, price_of
+from windopt.solving.exact.half_flights import Halves, half_flights
+from windopt.solving.exact.hashing import empty_slots, row_hash, same_rows
+from windopt.solving.exact.labels import Ints, Labels, Memory, Prices, Words, price_of
 from windopt.solving.exact.network import SLACK, Floats, Network, Side
-from windopt.solving.exact.ng_neighbourhoods import WIDEST
 from windopt.solving.exact.pool import Pool, Tree
 from windopt.solving.exact.relaxation import Fixing
 
@@ -29,17 +28,6 @@ JOINED = 4
 """Flights to allow for each half flight allowed."""
 BUCKETS = 24
 """Time buckets of half flights in a t_max; few, since each is sorted by cost."""
-
-
-class Halves(NamedTuple):
-    """Elementary half flights: time, cost, last turbine, parent, set and parities."""
-
-    T: Floats
-    C: Floats
-    node: Ints
-    parent: Ints
-    set: Words
-    S: Words
 
 
 class Sets(NamedTuple):
@@ -61,172 +49,11 @@ class Sets(NamedTuple):
 
 
 @compiled
-def _hash(words: Words, row: int, salt: int) -> np.uint64:
-    """Mix a row of words."""
-    mixed = np.uint64(salt) * np.uint64(0xC2B2AE3D27D4EB4F)
-    for word in range(words.shape[1]):
-        mixed ^= words[row, word]
-        mixed ^= mixed >> np.uint64(29)
-        mixed *= np.uint64(0xBF58476D1CE4E5B9)
-        mixed ^= mixed >> np.uint64(32)
-        mixed *= np.uint64(0x94D049BB133111EB)
-    return mixed ^ (mixed >> np.uint64(31))
-
-
-@compiled
-def _same(words: Words, a: int, b: int) -> bool:
-    differing = NONE
-    for word in range(words.shape[1]):
-        differing |= words[a, word] ^ words[b, word]
-    return bool(differing == NONE)
-
-
-@compiled
-def _slots(size: int) -> Ints:
-    return np.full(size, -1, np.int32)
-
-
-@compiled
-def _find(slots: Ints, found: Halves, new: int, j: int) -> np.uint64:
-    """Return the slot of row ``new`` of ``found``, which ends at j."""
-    mask = np.uint64(len(slots) - 1)
-    slot = _hash(found.set, new, j + 1) & mask
-    while slots[slot] >= 0:
-        if found.node[slots[slot]] == j and _same(found.set, slots[slot], new):
-            break
-        slot = (slot + ONE) & mask
-    return slot
-
-
-@compiled
-def _remembered(sets: Words, row: int, j: int, memory: Memory) -> np.uint64:
-    """Return the turbines of a set that j remembers, in j's numbers."""
-    V = NONE
-    for position in range(WIDEST):
-        bit_here = ONE << np.uint64(position)
-        i = memory.member[j, position]
-        if memory.bit[j, i] == bit_here and sets[row, i >> 6] & bit(i) != NONE:
-            V |= bit_here
-    return V
-
-
-@compiled
-def half_flights(
-    side: Side,
-    prices: Prices,
-    rest: Floats,
-    step: float,
-    ends: Labels,
-    memory: Memory,
-    t_max: float,
-    horizon: float,
-    limit: float,
-    capacity: int,
-    stop: NDArray[np.uint8],
-) -> tuple[Halves, bool]:
-    """Find the elementary half flights that may be part of a flight of cost ``limit`` or less.
-
-    They come in order of size, so that a half flight is final before it is extended.
-
-    Parameters
-    ----------
-    rest, step
-        Table of completion costs, a quick test.
-    ends
-        Labels from the other end, a thorough one: one of them must complete the half flight
-        without returning to it as far as it remembers.
-
-    Returns
-    -------
-    The :class:`Halves`, and whether they are complete.
-    """
-    n, words = prices.memory.shape
-    width = (n + 63) // 64
-    found = Halves(
-        np.empty(capacity + 1),
-        np.empty(capacity + 1),
-        np.empty(capacity + 1, np.int32),
-        np.empty(capacity + 1, np.int32),
-        np.empty((capacity + 1, width), np.uint64),
-        np.empty((capacity + 1, words), np.uint64),
-    )
-    slots = _slots(1 << 16)
-    least = cheapest(ends)
-    count, current = 0, -1
-    parities = np.empty(words, np.uint64)
-    complete = True
-    while current < count and complete:
-        if stop[0] != 0:
-            complete = False
-            break
-        i = found.node[current] if current >= 0 else -1
-        for e in range(side.degree[i] if i >= 0 else n):
-            j = side.heads[i, e] if i >= 0 else e
-            if i >= 0:
-                if found.set[current, j >> 6] & bit(j) != NONE:
-                    continue
-                leg = side.legs[i, j]
-                t, c = found.T[current] + leg, found.C[current] + leg - prices.pi[j]
-            else:
-                t, c = side.first[j], side.first[j] - prices.pi[j]
-            if t > horizon or t + side.rest[j] > t_max + SLACK:
-                continue
-            for word in range(words):
-                kept = prices.memory[j, word] & (found.S[current, word] if i >= 0 else NONE)
-                c += price_of(kept & prices.inside[j, word], word, prices.penalty)
-                parities[word] = kept ^ prices.inside[j, word]
-            if c + rest[j, int((t_max - t + SLACK) / step)] > limit:
-                continue
-            left = t_max - t + SLACK
-            if i >= 0:
-                V = _remembered(found.set, current, j, memory)
-                below = limit - found.C[current] - side.legs[i, j] + EPS
-                _, end = partner(
-                    ends, least, j, V, found.S, current, left, below, below, prices.penalty
-                )
-                if end < 0:
-                    continue
-            for word in range(width):
-                found.set[count, word] = found.set[current, word] if i >= 0 else NONE
-            found.set[count, j >> 6] |= bit(j)
-            slot = _find(slots, found, count, j)
-            row = slots[slot]
-            if row >= 0:
-                if found.T[row] <= t:
-                    continue
-            elif count == capacity:
-                complete = False
-                break
-            else:
-                row = count
-                slots[slot] = count
-                count += 1
-            found.T[row], found.C[row], found.node[row], found.parent[row] = t, c, j, current
-            found.S[row] = parities
-            if 2 * count > len(slots):
-                slots = _slots(4 * len(slots))
-                for old in range(count):
-                    slots[_find(slots, found, old, found.node[old])] = old
-        current += 1
-    return (
-        Halves(
-            found.T[:count].copy(),
-            found.C[:count].copy(),
-            found.node[:count].copy(),
-            found.parent[:count].copy(),
-            found.set[:count].copy(),
-            found.S[:count].copy(),
-        ),
-        complete,
-    )
-
-
-@compiled
 def _slot(slots: Ints, sets: Sets, row: int) -> np.uint64:
     """Return the slot of the turbines in ``row``."""
     mask = np.uint64(len(slots) - 1)
-    slot = _hash(sets.set, row, 0) & mask
-    while slots[slot] >= 0 and not _same(sets.set, slots[slot], row):
+    slot = row_hash(sets.set, row, 0) & mask
+    while slots[slot] >= 0 and not same_rows(sets.set, slots[slot], row):
         slot = (slot + ONE) & mask
     return slot
 
@@ -245,7 +72,7 @@ def _record(
         row = slots[slot] = count
         count += 1
         if 2 * count > len(slots):
-            slots = _slots(4 * len(slots))
+            slots = empty_slots(4 * len(slots))
             for old in range(count):
                 slots[_slot(slots, sets, old)] = old
     elif sets.cost[row] <= cost:
@@ -377,7 +204,7 @@ def enumerate_flights(
         np.empty(flight_capacity + 1, np.int32),
         np.empty((flight_capacity + 1, (n + 63) // 64), np.uint64),
     )
-    slots, count = _slots(1 << 16), 0
+    slots, count = empty_slots(1 << 16), 0
     trees = []
     for d, (network, rest) in enumerate(zip(networks, fixing.completions, strict=True)):
         limit = float(fixing.limits(gap)[d])

@@ -18,8 +18,8 @@ from windopt.solving.exact.master import Duals
 from windopt.solving.exact.network import Bools, Floats
 from windopt.solving.exact.subset_row_cuts import Path, Triples, packed
 
-PART = 1 << 16
-"""Flights to turn at once, whole words of them."""
+PART, PARTS = 1 << 16, 8
+"""Flights to turn at once, whole words of them; parts to price side by side."""
 
 
 class Tree(NamedTuple):
@@ -126,36 +126,25 @@ def _priced(
                 cost[64 * word + position(lowest)] += penalty[q]
 
 
-@dataclass(frozen=True)
-class Inspection:
-    """Prices every flight of a pool by looking at it.
+def reduced_costs(
+    pool: Pool, slices: Words, duals: Duals, triples: Triples, clock: Clock
+) -> Floats:
+    """Return the reduced cost of each flight, subset rows counted in full.
 
     Parameters
     ----------
-    pool
-        The flights.
     slices
         Of the pool.
+    triples
+        The subset row of each of ``duals.penalty``.
     """
+    cost = pool.cost - duals.toll[pool.station]
+    active = np.ascontiguousarray(triples[duals.penalty > 0.0])
+    penalty = duals.penalty[duals.penalty > 0.0]
 
-    pool: Pool
-    slices: Words
+    def price(start: int, end: int) -> None:
+        _priced(cost, slices, duals.pi, active, penalty, start, end)
 
-    def reduced_costs(self, duals: Duals, triples: Triples, clock: Clock) -> Floats:
-        """Return the reduced cost of each flight, with subset rows of full memory.
-
-        Parameters
-        ----------
-        triples
-            The subset row of each of ``duals.penalty``.
-        """
-        cost = self.pool.cost - duals.toll[self.pool.station]
-        active = duals.penalty > 0.0
-        triples, penalty = np.ascontiguousarray(triples[active]), duals.penalty[active]
-        parts = np.linspace(0, self.slices.shape[1], 3).astype(np.int64)
-        clock.map(
-            lambda start, end: _priced(cost, self.slices, duals.pi, triples, penalty, start, end),
-            parts[:-1],
-            parts[1:],
-        )
-        return cost
+    parts = np.linspace(0, slices.shape[1], PARTS + 1).astype(np.int64)
+    clock.map(price, parts[:-1], parts[1:])
+    return cost

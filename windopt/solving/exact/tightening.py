@@ -4,6 +4,7 @@ With every flight of interest in hand pricing is a look at each, so rows may be 
 hundred; each round raises the bound and drops the flights beyond the gap that is left.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,19 +15,23 @@ from windopt.solving.exact.clock import Clock
 from windopt.solving.exact.labels import Ints
 from windopt.solving.exact.master import Duals
 from windopt.solving.exact.network import Bools, Floats
-from windopt.solving.exact.pool import Inspection, Pool
-from windopt.solving.exact.relaxation import MARGIN, Relaxation
+from windopt.solving.exact.pool import Pool, reduced_costs
+from windopt.solving.exact.relaxation import MARGIN
 from windopt.solving.exact.search import Search
-from windopt.solving.exact.subset_row_cuts import Triples, spread, violations
+from windopt.solving.exact.subset_row_cuts import MOST_VIOLATED, Triples, spread, violations
 
 FIRST, BATCH = 4000, 1000
 """Flights in the first linear program, and to add at once."""
-ROUNDS, ROWS, EACH = 40, 100, 6
+ROUNDS, ROWS, EACH = 60, 100, 6
 """Rounds of rows; rows in a round, and how many of them may share a turbine."""
+LEAST_VIOLATION = 0.02
+"""Violation from which a row is added."""
 SMALL = 1500
 """Flights few enough to leave the rest to branch and bound."""
 SATISFIED = 15_000
 """Flights few enough to stop when rows no longer help much."""
+HELPFUL = 0.02
+"""Part of the gap that a round of rows must close."""
 
 
 @dataclass(frozen=True)
@@ -39,12 +44,18 @@ class Tightened:
         The subset rows that matter.
     value
         The bound.
+    together
+        How much of the flights that visit both turbines is flown, shape ``(n, n)``.
+    sent
+        How many flights each station and all send, shape ``(k + 1,)``.
     """
 
     pool: Pool
     reduced: Floats
     triples: Triples
     value: float
+    together: Floats
+    sent: Floats
 
 
 class Selection:
@@ -53,7 +64,7 @@ class Selection:
     Parameters
     ----------
     triples
-        The subset rows to begin with.
+        Subset rows to begin with.
     price
         Of leaving a turbine out, so dear that a plan of interest leaves out none.
     """
@@ -61,6 +72,7 @@ class Selection:
     def __init__(self, n: int, counts: Floats, triples: Triples, price: float) -> None:
         self.n, self.counts, self.triples = n, counts, triples
         self.members: Bools = np.zeros((0, n), bool)
+        self.station: Ints = np.zeros(0, np.int32)
         self._program = set_partitioning(n, counts, integer=False, cover=True, price=price)
         self._program.add_subset_rows(csr_array((len(triples), n)))
 
@@ -70,9 +82,10 @@ class Selection:
         coefficients = flight_rows(members, pool.station, len(self.counts), self.triples)
         self._program.add_flights(pool.cost, coefficients)
         self.members = np.vstack([self.members, members])
+        self.station = np.concatenate([self.station, pool.station])
 
     def cut(self, triples: Triples) -> None:
-        """Add subset rows."""
+        """Add rows."""
         flights = csr_array(pairs(self.members, triples).T.astype(float))
         left_out = csr_array((len(triples), self.n))
         self._program.add_subset_rows(csr_array(hstack([left_out, flights])))
@@ -102,66 +115,89 @@ def flight_rows(members: Bools, station: Ints, counts: int, triples: Triples) ->
     sent = np.zeros((counts, len(members)))
     sent[station, np.arange(len(members))] = 1.0
     sent[-1] = 1.0
-    cut = pairs(members, triples).T
-    blocks = [csc_array(members.T.astype(float)), csc_array(sent), csc_array(cut.astype(float))]
+    cut = pairs(members, triples).T.astype(float)
+    blocks = [csc_array(members.T.astype(float)), csc_array(sent), csc_array(cut)]
     return csc_array(vstack(blocks))
 
 
-def tighten(pool: Pool, relaxation: Relaxation, target: float, search: Search) -> Tightened | None:
+def tighten(
+    pool: Pool,
+    reduced: Floats,
+    triples: Triples,
+    counts: Floats,
+    target: float,
+    search: Search,
+    prove: Callable[[float], None],
+) -> Tightened | None:
     """Raise the bound over ``pool`` towards ``target``.
 
     Parameters
     ----------
-    relaxation
-        Whose duals and cuts to begin with.
+    reduced
+        A guess at the reduced costs, to begin with the flights that matter.
+    triples
+        Subset rows to begin with.
+    counts
+        Least and largest number of flights of each station, and of all, shape ``(k + 1, 2)``.
     target
         Only plans cheaper than this are looked for.
+    prove
+        Told of each bound on the plans over ``pool`` that are cheaper than ``target``.
 
     Returns
     -------
     What is left; None where no flight is, so that ``target`` is a bound.
     """
-    duals, triples, counts = relaxation.duals, relaxation.master.cuts.triples, relaxation.counts
-    inspection = Inspection(pool, pool.slices(search.n, search.clock))
-    reduced = inspection.reduced_costs(duals, triples, search.clock)
-    gap = target - duals.value(counts) + MARGIN
-    pool, reduced = pool.kept(reduced <= gap), reduced[reduced <= gap]
-    selection = Selection(search.n, counts, triples, search.ceiling)
-    chosen = np.argsort(reduced, kind="stable")[:FIRST]
-    selection.add(pool.kept(chosen))
     inside = np.zeros(len(pool), bool)
-    inside[chosen] = True
+    inside[np.argsort(reduced, kind="stable")[:FIRST]] = True
+    selection = Selection(search.n, counts, triples, search.ceiling)
+    selection.add(pool.kept(inside))
     before = -np.inf
     for _ in range(ROUNDS):
-        inspection = Inspection(pool, pool.slices(search.n, search.clock))
-        while True:
-            duals, x = selection.solve(search.clock)
-            reduced = inspection.reduced_costs(duals, selection.triples, search.clock)
-            lacking = np.flatnonzero((reduced < -1e-6) & ~inside)
-            if not len(lacking):
-                break
-            lacking = lacking[np.argsort(reduced[lacking], kind="stable")[:BATCH]]
-            selection.add(pool.kept(lacking))
-            inside[lacking] = True
+        duals, x, reduced = _price_out(selection, pool, inside, search.clock)
         value = duals.value(counts) + search.most_flights * min(0.0, reduced.min(initial=0.0))
-        search.prove(min(value, target))
         gap = target - value + MARGIN
         keep = reduced <= gap
         pool, reduced, inside = pool.kept(keep), reduced[keep], inside[keep]
         if gap <= MARGIN or not len(pool):
-            search.prove(target)
+            prove(target)
             return None
+        prove(value)
         flown = x > 1e-6
-        done = len(pool) <= SMALL or (x[flown] > 1 - 1e-6).all()
-        stuck = len(pool) <= SATISFIED and value - before < 0.02 * gap
-        if done or stuck:
+        if len(pool) <= SMALL or (x[flown] > 1 - 1e-6).all():
+            break
+        if len(pool) <= SATISFIED and value - before < HELPFUL * gap:
             break
         visits = np.ascontiguousarray(selection.members[flown].T.astype(np.int64))
-        found, violation = violations(visits, x[flown], 0.02, 200_000)
+        found, violation = violations(visits, x[flown], LEAST_VIOLATION, MOST_VIOLATED)
         best = spread(found, violation, search.n, ROWS, EACH)
         if not len(best):
             break
         selection.cut(found[best])
         before = value
-    active = duals.penalty > 1e-7
-    return Tightened(pool, reduced, selection.triples[active], value)
+    members = selection.members.astype(float)
+    together = members.T @ (x[:, None] * members)
+    sent = np.bincount(selection.station, x, minlength=len(counts) - 1)
+    triples = selection.triples[duals.penalty > 1e-7]
+    return Tightened(pool, reduced, triples, value, together, np.append(sent, sent.sum()))
+
+
+def _price_out(
+    selection: Selection, pool: Pool, inside: Bools, clock: Clock
+) -> tuple[Duals, Floats, Floats]:
+    """Solve the linear program over the whole pool; ``inside`` is kept up to date.
+
+    Returns
+    -------
+    Duals, flights flown, and the reduced cost of each flight of the pool.
+    """
+    slices = pool.slices(selection.n, clock)
+    while True:
+        duals, x = selection.solve(clock)
+        reduced = reduced_costs(pool, slices, duals, selection.triples, clock)
+        lacking = np.flatnonzero((reduced < -1e-6) & ~inside)
+        if not len(lacking):
+            return duals, x, reduced
+        lacking = lacking[np.argsort(reduced[lacking], kind="stable")[:BATCH]]
+        selection.add(pool.kept(lacking))
+        inside[lacking] = True
