@@ -1,6 +1,6 @@
 """What quantisation buys on a small machine: bytes and time, one window at a time.
 
-``python -m benchmarks.edge [--out FILE.csv]`` compares, in one process on one thread, torch as it
+``python -m benchmarks run edge [--out FILE.csv]`` compares, in one process on one thread, torch as it
 trains, ONNX Runtime in floats and with dynamic int8, and windopt's NumPy networks, each in several
 bit widths and beside small networks in floating point. Times are minima of many runs: the ratios
 carry over to other machines, the times do not. What is not installed is left out and said so.
@@ -9,7 +9,7 @@ carry over to other machines, the times do not. What is not installed is left ou
 import argparse
 import csv
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -190,19 +190,15 @@ def measured() -> Iterator[tuple[str, float | str, int | str]]:
         yield name, fastest(run, x), size
 
 
-def main() -> None:
+def main(arguments: Sequence[str] | None = None) -> None:
     """Print the table, and write it."""
     parser = argparse.ArgumentParser(description="Time and size of the network on small machines.")
     parser.add_argument("--out", type=Path, help="a CSV file for the table, beside printing it")
-    arguments = parser.parse_args()
+    chosen = parser.parse_args(arguments)
     rows = [("network", "microseconds", "bytes")]
     for name, time_taken, size in measured():
         rows.append((name, f"{time_taken:.0f}" if time_taken else "", str(size)))
         print("  ".join(rows[-1]), flush=True)
-    if arguments.out:
-        with arguments.out.open("w", newline="") as file:
+    if chosen.out:
+        with chosen.out.open("w", newline="") as file:
             csv.writer(file, lineterminator="\n").writerows(rows)
-
-
-if __name__ == "__main__":
-    main()

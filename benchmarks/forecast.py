@@ -1,6 +1,6 @@
 """The paper's two tables of forecast errors, on another series, with persistence beside them.
 
-``python -m benchmarks.forecast FILE [--bits 32 4] [--seeds 0 1 2] [--out FILE.csv]`` trains on the
+``python -m benchmarks run forecast FILE [--bits 32 4] [--seeds 0 1 2] [--out FILE.csv]`` trains on the
 first two thirds of a 5- or 10-minute series and scores the last third. The paper's data set is not
 public; the series is another, so the figures stand beside the paper's and do not reproduce them.
 
@@ -11,11 +11,13 @@ on the same truth.
 
 import argparse
 import csv
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
+from benchmarks import edge
 from windopt.domain.wind import WindSeries
 from windopt.forecasting.autoregression import LinearAutoregression
 from windopt.forecasting.evaluation import Backtest, backtest, evaluate
@@ -28,7 +30,9 @@ from windopt.forecasting.persistence import Persistence
 from windopt.forecasting.report import report
 from windopt.forecasting.training.fit import Recipe, fit
 from windopt.forecasting.windows import chronological_split
+from windopt.io.built_in import DATA
 
+MONTH = DATA / "wrf-2009-01.csv.gz"
 PAPER = {
     "32 bits": (0.0403, 0.0573, 0.0596, 0.1151),
     "16 bits": (0.0396, 0.0554, 0.0609, 0.1192),
@@ -100,26 +104,23 @@ def by_source(series: WindSeries) -> Iterator[Row]:
         yield (f"{name} (windows of 12 h)", *figures)
 
 
-def main() -> None:
+def main(arguments: Sequence[str] | None = None) -> None:
     """Print the tables, and write them."""
     parser = argparse.ArgumentParser(description="Errors by bit width and by source of the wind.")
-    parser.add_argument("file", type=Path, help="a measured series")
+    parser.add_argument("file", type=Path, nargs="?", default=MONTH, help="a measured series")
     parser.add_argument("--bits", type=int, nargs="+", default=[32, 16, 8, 4, 2])
     parser.add_argument("--seeds", type=int, nargs="+", default=[0])
     parser.add_argument("--out", type=Path, help="a CSV file for the tables, beside printing them")
-    chosen = parser.parse_args()
+    chosen = parser.parse_args(arguments)
     series = WindSeries.read(chosen.file)
-    found: list[Row] = [HEADER]
-    for name, figures in PAPER.items():
-        found.append((f"the paper's data: {name}", "", "", "", *figures, ""))
-    for table in by_bits(series, chosen.bits, chosen.seeds), by_source(series):
-        for row in table:
-            found.append(row)
-            print("  ".join(map(str, row)), flush=True)
+    print(f"The paper's data set is not public; {series.source or chosen.file} is another.")
+    published = [(f"the paper's data: {name}", "", "", "", *of, "") for name, of in PAPER.items()]
+    found: list[Row] = []
+    measured = by_bits(series, chosen.bits, chosen.seeds), by_source(series)
+    for row in chain([HEADER], published, *measured):
+        found.append(row)
+        print("  ".join(map(str, row)), flush=True)
+    edge.main([])
     if chosen.out:
         with chosen.out.open("w", newline="") as file:
             csv.writer(file, lineterminator="\n").writerows(found)
-
-
-if __name__ == "__main__":
-    main()

@@ -195,3 +195,11 @@ def test_a_gap_that_was_asked_for_is_recorded_and_kept(method):
     assert result.status is Status.OPTIMAL
     assert result.gap <= result.asked_gap == 0.3
     assert windopt.check(result).passed
+
+
+def test_exact_and_time_flow_prove_the_same_optimum():
+    site = farm(12, seed=7)
+    exact = plan_inspection(site, TWO, EAST_WIND, method="exact", time_limit=300.0)
+    other = plan_inspection(site, TWO, EAST_WIND, method="time-flow", time_limit=300.0)
+    assert exact.status is other.status is Status.OPTIMAL
+    assert exact.objective == pytest.approx(other.objective, rel=1e-6)

@@ -150,7 +150,25 @@ def _route_indexed(
     return route_indexed(t, instance.t_max, routes=routes, allowed=instance.allowed)
 
 
+def _exact(
+    instance: RoutingInstance,
+    *,
+    gap: float,
+    time_limit: float,
+    seed: int,
+    progress: Progress | None,
+) -> Result[Routes]:
+    """Solve by column generation, whose compiled loops take a moment to load."""
+    from windopt.solving.column_generation import column_generation
+
+    found = column_generation(
+        instance, gap=gap, time_limit=time_limit, seed=seed, progress=progress
+    )
+    return replace(found, asked_gap=gap)
+
+
 METHODS: dict[str, RoutingMethod] = {
+    "exact": _exact,
     "time-flow": _formulation(_time_flow),
     "route-indexed": _formulation(_route_indexed),
     "algorithm-2": _heuristic(algorithm_2),
