@@ -1,7 +1,8 @@
 """The paper's two tables of forecast errors, on another series, with persistence beside them.
 
-``python -m benchmarks run forecast FILE [--bits 32 4] [--seeds 0 1 2] [--out FILE.csv]`` trains on the
-first two thirds of a 5- or 10-minute series and scores the last third. The paper's data set is not
+``python -m benchmarks run forecast [FILE] [--bits 32 4] [--seeds 0 1 2] [--out FILE.csv]`` trains
+on the first two thirds of a 5- or 10-minute series, the built-in month unless given, and scores the
+last third. The paper's data set is not
 public; the series is another, so the figures stand beside the paper's and do not reproduce them.
 
 The first table compares bit widths, of our target and of the paper's own, and small networks in

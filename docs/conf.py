@@ -71,6 +71,7 @@ nitpick_ignore_regex = [
     (r"py:class", r"(casadi|cvxpy|highspy|numpy|scipy|torch)\..*"),
     (r"py:class", r"Axes"),  # matplotlib's, imported for type checkers only
     (r"py:class", r"windopt\.result\.(Solution|Other)"),
+    (r"py:class", r"windopt\.solving\.exact\.compiled\.Function"),
 ]
 
 ARRAY = re.compile(r"~numpy\.ndarray\[tuple\[~typing\.Any, \.\.\.\], ~numpy\.dtype\[(~[\w.]+)\]\]")

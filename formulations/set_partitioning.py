@@ -17,9 +17,9 @@ whether turbine i is left out at a price :math:`p_i`.
 Where flights obey the triangle inequality (2) may read :math:`\ge 1`, and its relaxation is then
 the master of column generation: flights are added as they are found, by
 :meth:`SetPartitioning.add_flights`. (5) follows from (2) and (6) and cuts off fractional plans
-[1]_; there are :math:`n^3 / 6` such rows, so they too are added as they are violated.
+[1]; there are :math:`n^3 / 6` such rows, so they too are added as they are violated.
 
-.. [1] Jepsen, Petersen, Spoorendonk & Pisinger (2008), *Operations Research* 56, 497-511.
+* [1] Jepsen, Petersen, Spoorendonk & Pisinger (2008), *Operations Research* 56, 497-511.
 """
 
 from dataclasses import dataclass

@@ -50,7 +50,7 @@ def routing_instance(
 def in_reach(farm: Farm, fleet: Fleet, wind: Wind, *, dwell: Sequence[float]) -> NDArray[np.bool_]:
     """Return whether station d can inspect turbine i and be back in time, shape ``(k, n)``.
 
-    The same as :attr:`RoutingInstance.reachable` of :func:`routing_instance` under the exact rule,
+    The same as ``RoutingInstance.reachable`` of :func:`routing_instance` under the exact rule,
     without the times between turbines.
     """
     reach = [_in_reach_of(station, farm, wind, dwell) for station in fleet.stations]

@@ -8,11 +8,11 @@ The program decides the yaw. Above the rated power, pitch and tip-speed ratio ar
 curve, and set-points take the point of it that keeps the rotor at its rated speed.
 """
 
+import threading
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from math import isnan, nan, pi, radians, remainder
-from threading import Lock
 from time import perf_counter
 
 import numpy as np
@@ -39,9 +39,8 @@ GAP = 1e-6
 """Relative distance to its bound at which a plan counts as proved optimal."""
 FURTHER_STARTS = 8
 FEATHERED = 90.0  # deg
-_CASADI = (
-    Lock()
-)  # Its programs keep their last solution, and its references are not counted safely.
+# CasADi's programs keep their last solution, and its references are not counted safely.
+_CASADI = threading.Lock()
 BOUND_SOURCE = "sum over the turbines of min(rated power, 1/2 rho A w^3 C_p,max)"
 
 

@@ -1,12 +1,12 @@
 """Inspection plans with a proof, by column generation.
 
-The recipe is that of exact vehicle routing [1]_, [2]_, for flights limited in time: a relaxation
+The recipe is that of exact vehicle routing [1], [2], for flights limited in time: a relaxation
 over flights that may return to a turbine, tightened until the flights that can matter are few
 enough to be listed, and a choice among these. Its ideas stand in :mod:`windopt.solving.exact`,
 one to a module.
 
-.. [1] Baldacci, Christofides & Mingozzi (2008), *Mathematical Programming* 115, 351-385.
-.. [2] Pessoa, Sadykov, Uchoa & Vanderbeck (2020), *Mathematical Programming* 183, 483-523.
+* [1] Baldacci, Christofides & Mingozzi (2008), *Mathematical Programming* 115, 351-385.
+* [2] Pessoa, Sadykov, Uchoa & Vanderbeck (2020), *Mathematical Programming* 183, 483-523.
 """
 
 from collections.abc import Callable

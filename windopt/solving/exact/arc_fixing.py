@@ -2,9 +2,9 @@
 
 Half labels give a table of the least cost of reaching each turbine by a given time; it lets
 labels go on beyond half of t_max where they may still matter, and the tables of these hold for
-every time. A leg is of no use when the best flight over it costs more than the gap [1]_.
+every time. A leg is of no use when the best flight over it costs more than the gap [1].
 
-.. [1] Irnich, Desaulniers, Desrosiers & Hadjar (2010), *INFORMS Journal on Computing* 22, 297-313.
+* [1] Irnich, Desaulniers, Desrosiers & Hadjar (2010), *INFORMS Journal on Computing* 22, 297-313.
 """
 
 from typing import NamedTuple

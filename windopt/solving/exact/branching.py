@@ -4,7 +4,7 @@ Most nodes end without a search of their own: the bound that tightening reaches 
 no flight, or few enough for HiGHS. Nodes are taken in the order of their bounds, so the least of
 those that are open bounds every plan.
 
-.. [1] Ryan & Foster (1981), in *Computer Scheduling of Public Transport*, 269-280.
+* [1] Ryan & Foster (1981), in *Computer Scheduling of Public Transport*, 269-280.
 """
 
 from dataclasses import replace

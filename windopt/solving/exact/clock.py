@@ -1,6 +1,6 @@
 """The clock: a limit on wall time that compiled loops obey as well as Python's.
 
-Compiled loops run in threads of their own and look at :attr:`Clock.stop` now and then. It is set
+Compiled loops run in threads of their own and look at ``Clock.stop`` now and then. It is set
 when time is up, and when the user interrupts, whom the waiting main thread can hear.
 """
 

@@ -1,9 +1,9 @@
 """Enumeration: all flights of a reduced cost below the gap, each set of turbines once.
 
 Half flights are joined, and the flights hashed on their set, keeping the fastest over all
-stations. A plan cheaper than dual bound + gap uses no other flight [1]_.
+stations. A plan cheaper than dual bound + gap uses no other flight [1].
 
-.. [1] Baldacci, Christofides & Mingozzi (2008), *Mathematical Programming* 115, 351-385.
+* [1] Baldacci, Christofides & Mingozzi (2008), *Mathematical Programming* 115, 351-385.
 """
 
 from typing import NamedTuple

@@ -6,9 +6,9 @@ S of the subset-row cuts. Labels of equal time are told apart by layers: a layer
 of one time bucket and is final when the next begins, because only legs shorter than a bucket
 stay in it, and those open a layer of their own.
 
-.. [1] Baldacci, Mingozzi & Roberti (2011), *Operations Research* 59, 1269-1283 (ng-routes).
-.. [2] Jepsen, Petersen, Spoorendonk & Pisinger (2008), *Operations Research* 56, 497-511
-   (dominance with subset-row cuts).
+* [1] Baldacci, Mingozzi & Roberti (2011), *Operations Research* 59, 1269-1283 (ng-routes).
+* [2] Jepsen, Petersen, Spoorendonk & Pisinger (2008), *Operations Research* 56, 497-511
+  (dominance with subset-row cuts).
 """
 
 from typing import NamedTuple
@@ -66,7 +66,7 @@ class Memory(NamedTuple):
 
 
 class Bound(NamedTuple):
-    """What a label needs at least to end its flight, from :mod:`arc_fixing`.
+    """What a label needs at least to end its flight, from :mod:`windopt.solving.exact.arc_fixing`.
 
     Attributes
     ----------

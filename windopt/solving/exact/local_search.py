@@ -1,10 +1,10 @@
 """A good plan to begin with: ruin and recreate under simulated annealing.
 
 Strings of neighbouring flights are torn out and their turbines put back one by one where they
-cost least, now and then not quite there. The method is slack induction by string removals [1]_,
+cost least, now and then not quite there. The method is slack induction by string removals [1],
 with several stations and a limit on the time of a flight in place of one on its load.
 
-.. [1] Christiaens & Vanden Berghe (2020), *Transportation Science* 54, 417-433.
+* [1] Christiaens & Vanden Berghe (2020), *Transportation Science* 54, 417-433.
 """
 
 # ruff: noqa: NPY002  (compiled code has a generator of its own, which only these names reach)
@@ -22,11 +22,11 @@ from windopt.solving.exact.network import SLACK, Floats, Network
 from windopt.solving.exact.search import Flight, Search
 
 REMOVED = 10.0
-"""Turbines to tear out in one ruin, on average ([1]_, section 6.2)."""
+"""Turbines to tear out in one ruin, on average ([1], section 6.2)."""
 STRING = 10
-"""Longest string to tear out of one flight ([1]_, section 6.2)."""
+"""Longest string to tear out of one flight ([1], section 6.2)."""
 BLINK = 0.01
-"""Share of places that a recreation overlooks ([1]_, section 6.2)."""
+"""Share of places that a recreation overlooks ([1], section 6.2)."""
 ITERATIONS = 300
 """Ruins and recreations for each turbine."""
 RUNS = 2

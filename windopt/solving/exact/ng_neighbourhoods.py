@@ -1,11 +1,11 @@
 """Ng-neighbourhoods: what a partial flight remembers of where it has been.
 
-A turbine may be visited again only after one whose neighbourhood leaves it out [1]_. Small
+A turbine may be visited again only after one whose neighbourhood leaves it out [1]. Small
 neighbourhoods make few labels and a weaker bound, so they start small and grow along the cycles
-of the fractional plan at hand [2]_.
+of the fractional plan at hand [2].
 
-.. [1] Baldacci, Mingozzi & Roberti (2011), *Operations Research* 59, 1269-1283.
-.. [2] Roberti & Mingozzi (2014), *Transportation Science* 48, 413-424 (dynamic ng-relaxation).
+* [1] Baldacci, Mingozzi & Roberti (2011), *Operations Research* 59, 1269-1283.
+* [2] Roberti & Mingozzi (2014), *Transportation Science* 48, 413-424 (dynamic ng-relaxation).
 """
 
 from collections.abc import Iterable

@@ -92,10 +92,10 @@ class Relaxation:
     def solve(self) -> None:
         """Solve the master over all flights.
 
-        Exact pricing is asked about duals half way to the best seen, which swing less [1]_; what
+        Exact pricing is asked about duals half way to the best seen, which swing less [1]; what
         it finds there bounds every plan by the duals' value + flights * least reduced cost.
 
-        .. [1] Wentges (1997), *International Transactions in Operational Research* 4, 151-162.
+        * [1] Wentges (1997), *International Transactions in Operational Research* 4, 151-162.
 
         Raises
         ------

@@ -30,7 +30,7 @@ def staged_mip(
     search: Search,
     prove: Callable[[float], None],
 ) -> float:
-    """Look for a plan cheaper than ``target`` among the flights that :func:`tighten` left.
+    """Look for a plan cheaper than ``target`` among the flights that ``tighten`` left.
 
     Parameters
     ----------

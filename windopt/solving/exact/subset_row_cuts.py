@@ -1,11 +1,11 @@
 """Subset-row cuts: of any three turbines, at most one flight may visit two or more.
 
-A cut remembers its visits only in a set of turbines, its memory, and forgets them outside [2]_;
+A cut remembers its visits only in a set of turbines, its memory, and forgets them outside [2];
 the weaker coefficient keeps labels comparable. Flights that visit no turbine twice are priced
 in full: their memory is everywhere.
 
-.. [1] Jepsen, Petersen, Spoorendonk & Pisinger (2008), *Operations Research* 56, 497-511.
-.. [2] Pecin, Pessoa, Poggi & Uchoa (2017), *Mathematical Programming Computation* 9, 61-100.
+* [1] Jepsen, Petersen, Spoorendonk & Pisinger (2008), *Operations Research* 56, 497-511.
+* [2] Pecin, Pessoa, Poggi & Uchoa (2017), *Mathematical Programming Computation* 9, 61-100.
 """
 
 from collections.abc import Sequence
