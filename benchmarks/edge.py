@@ -2,8 +2,9 @@
 
 ``python -m benchmarks run edge [--out FILE.csv]`` compares, in one process on one thread, torch
 as it trains, ONNX Runtime in floats and with dynamic int8, and windopt's NumPy networks, each in
-several bit widths and beside small networks in floating point. Times are minima of many runs: the ratios
-carry over to other machines, the times do not. What is not installed is left out and said so.
+several bit widths and beside small networks in floating point. Times are minima of many runs: the
+ratios carry over to other machines, the times do not. What is not installed is left out and said
+so.
 """
 
 import argparse
