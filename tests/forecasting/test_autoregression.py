@@ -56,13 +56,13 @@ def test_a_gap_costs_windows_and_nothing_else():
 
 
 def test_a_wind_that_never_changes_is_forecast_not_to():
-    wind = series(np.tile([3.0, 4.0], (100, 1)))
+    wind = series(np.tile([3.0, 4.0], (300, 1)))
     forecast = LinearAutoregression().fit(wind).predict(wind)
     assert forecast.velocity == pytest.approx(np.tile([3.0, 4.0], (8, 1)), abs=1e-6)
 
 
 def test_a_calm_is_forecast_to_last():
-    forecast = LinearAutoregression().fit(calm := series(np.zeros((100, 2)))).predict(calm)
+    forecast = LinearAutoregression().fit(calm := series(np.zeros((300, 2)))).predict(calm)
     assert forecast.speed == pytest.approx(np.zeros(8))
 
 
@@ -95,3 +95,8 @@ def test_three_rows_or_none_valid_are_refused():
     empty.speed[:] = np.nan
     with pytest.raises(InvalidInput, match="valid rows"):
         LinearAutoregression().fit(empty)
+
+
+def test_fewer_windows_than_coefficients_are_refused():
+    with pytest.raises(InvalidInput, match="146 windows"):
+        LinearAutoregression().fit(rotating(150))

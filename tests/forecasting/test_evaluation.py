@@ -32,7 +32,7 @@ def test_north_has_no_seam():
 
 
 def test_persistence_stands_first_and_once():
-    table = backtest([LinearAutoregression().fit(ramp()), Persistence()], ramp())
+    table = backtest([LinearAutoregression().fit(ramp(400)), Persistence()], ramp())
     assert [score.name for score in table.scores] == ["persistence", "linear autoregression"]
     assert table.windows == 100 - 32 + 1
 

@@ -70,7 +70,7 @@ STRONG = WindSeries(
 def test_no_time_still_gives_a_whole_plan_and_says_so(method):
     made = plan(FARM, FLEET, STRONG, forecaster="persistence", time_limit=0.0, method=method)
     assert windopt.check(made).passed
-    assert "not proved shortest" in made.inspection.reason
+    assert "not proved" in made.inspection.reason.lower()
     assert made.inspection.runtime < 1.0
 
 
@@ -100,7 +100,7 @@ def test_ctrl_c_ends_the_whole_plan(monkeypatch):
     made = plan(FARM, FLEET, STRONG, forecaster="persistence")
     assert limits[1] > 0.0
     assert limits[2:] == [0.0] * 6
-    assert "not proved shortest" in made.inspection.reason
+    assert "not proved" in made.inspection.reason.lower()
     assert windopt.check(made).passed
 
 

@@ -80,7 +80,9 @@ class Farm:
     @cached_property
     def xy(self) -> NDArray[np.float64]:
         """Positions of the turbines [m], shape ``(n, 2)``."""
-        return np.array([(turbine.x, turbine.y) for turbine in self.turbines], dtype=float)
+        xy = np.array([(turbine.x, turbine.y) for turbine in self.turbines], dtype=float)
+        xy.flags.writeable = False
+        return xy
 
     def __len__(self) -> int:
         return len(self.turbines)

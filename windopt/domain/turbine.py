@@ -2,26 +2,28 @@
 
 from dataclasses import dataclass, replace
 from math import isfinite, pi, sqrt
+from numbers import Real
 
 from windopt.errors import InvalidInput
 
 
 def require_positive(field: str, value: float) -> None:
     """Raise unless ``value`` is a positive, finite number."""
-    if not (isfinite(value) and value > 0):
-        raise InvalidInput(field, "> 0 and finite" if value > 0 else "> 0", value)
+    require_finite(field, value)
+    if not value > 0:
+        raise InvalidInput(field, "> 0", value)
 
 
-def require_not_negative(field: str, value: float) -> None:
+def require_not_negative(field: str, value: object) -> None:
     """Raise unless ``value`` is zero, positive or infinite."""
-    if not value >= 0:
+    if not (isinstance(value, Real) and float(value) >= 0):
         raise InvalidInput(field, ">= 0", value)
 
 
-def require_finite(field: str, value: float) -> None:
+def require_finite(field: str, value: object) -> None:
     """Raise unless ``value`` is a finite number."""
-    if not isfinite(value):
-        raise InvalidInput(field, "to be a finite number", value)
+    if not (isinstance(value, Real) and isfinite(value)):
+        raise InvalidInput(field, "to be a finite number", repr(value))
 
 
 @dataclass(frozen=True)

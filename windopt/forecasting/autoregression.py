@@ -54,9 +54,13 @@ class LinearAutoregression:
         Raises
         ------
         InvalidInput
-            If ``series`` holds no window, or its step does not divide the durations.
+            If ``series`` holds fewer windows than twice the coefficients of an equation, or its
+            step does not divide the durations.
         """
         train = windows(series, history=self.history, horizon=self.horizon)
+        least = 2 * (3 * train.history + 1)
+        if len(train) < least:
+            raise InvalidInput("wind series", f"to hold {least} windows to fit", len(train))
         XX = np.zeros((3 * train.history + 1, 3 * train.history + 1))
         XY = np.zeros((3 * train.history + 1, 3 * train.horizon))
         for block in train.blocks():

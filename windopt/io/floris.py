@@ -8,6 +8,7 @@ from windopt.domain.turbine import SG_8_167, Turbine, TurbineType
 from windopt.errors import InvalidInput
 from windopt.io.entries import Entry
 from windopt.io.turbine_names import distinct_names
+from windopt.io.turbine_types import CURVE_NOTE
 
 
 def _reference(name: str, megawatts: float, diameter: float, hub_height: float) -> TurbineType:
@@ -76,7 +77,8 @@ def _types(entry: Entry, n: int) -> tuple[list[TurbineType], tuple[str, ...]]:
         f"The turbine {name} is not in FLORIS's library; {SG_8_167.name} is assumed."
         for name in dict.fromkeys(unknown)
     )
-    return types * n if len(types) == 1 else types, tuple(notes)
+    curve_note = (CURVE_NOTE,) if len(unknown) < len(types) else ()
+    return types * n if len(types) == 1 else types, (*notes, *curve_note)
 
 
 def turbine_type(entry: Entry) -> TurbineType:

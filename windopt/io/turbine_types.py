@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 from windopt.domain.turbine import SG_8_167, TurbineType
 
+CURVE_NOTE = "Power follows the C_p model slootweg; the power curves of the source are not used."
 DEFAULT_NOTE = f"The source names no turbine type; {SG_8_167.name} is assumed."
 
 

@@ -14,7 +14,7 @@ from windopt.errors import InvalidInput
 from windopt.io.coordinates import projected_crs
 from windopt.io.entries import Entry
 from windopt.io.turbine_names import distinct_names
-from windopt.io.turbine_types import DEFAULT_NOTE
+from windopt.io.turbine_types import CURVE_NOTE, DEFAULT_NOTE
 
 RHO = 1.225  # kg/m3, the standard atmosphere's, for turbines given by C_p alone
 
@@ -103,9 +103,11 @@ def _types(plant: Entry, layout: Entry, n: int) -> tuple[list[TurbineType], tupl
         for entry in listed:
             if entry.label not in types:
                 raise entry.refuse(f"to be one of {', '.join(types)}")
-        return [types[entry.label] for entry in listed], ()
+        curves = any(_has_curve(entry) for _, entry in plant["turbine_types"].items())
+        return [types[entry.label] for entry in listed], (CURVE_NOTE,) if curves else ()
     if "turbines" in plant:
-        return [turbine_type(plant["turbines"])] * n, ()
+        notes = (CURVE_NOTE,) if _has_curve(plant["turbines"]) else ()
+        return [turbine_type(plant["turbines"])] * n, notes
     return [SG_8_167] * n, (DEFAULT_NOTE,)
 
 
@@ -125,6 +127,10 @@ def turbine_type(entry: Entry) -> TurbineType:
         cut_out=given("cutout_wind_speed", SG_8_167.cut_out),
         hub_height=entry["hub_height"].number if "hub_height" in entry else None,
     )
+
+
+def _has_curve(entry: Entry) -> bool:
+    return any(curve in entry["performance"] for curve in ("power_curve", "Cp_curve"))
 
 
 def _rated_power(performance: Entry, area: float) -> float:

@@ -120,4 +120,5 @@ def _result(search: Search, stopped: Status) -> Result[tuple[Route, ...]]:
         return Result(Status.NO_SOLUTION, None, inf, bound, runtime, SOURCE)
     status = Status.OPTIMAL if search.closed else stopped
     objective = search.objective * search.unit
-    return Result(status, search.routes(), objective, bound, runtime, SOURCE)
+    reason = "Not proved optimal: time or memory ran out." if status is Status.FEASIBLE else ""
+    return Result(status, search.routes(), objective, bound, runtime, SOURCE, reason)
