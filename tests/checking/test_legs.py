@@ -43,6 +43,10 @@ def test_a_wind_too_strong_to_brake_in_breaks_the_cap():
     assert least_time((1000.0, 0.0), Wind(40.0, 0.0), Uav(airspeed=16.0)) == inf
 
 
+def test_no_leg_is_flown_in_an_absurd_wind():
+    assert least_time((1000.0, 0.0), Wind(1e308, 0.0), Uav()) == inf
+
+
 def test_the_least_time_uses_the_whole_airspeed():
     wind, uav = Wind(3.0, -4.0), Uav(airspeed=16.0, ground_speed_cap=False)
     d = (700.0, 1200.0)

@@ -19,6 +19,9 @@ Displacement = tuple[float, float]
 ABEAM = 1e-8
 """Radians; the paper's rule jumps where the wind is abeam, and rounding must not decide."""
 
+CARRIED_OFF = 1e6
+"""Airspeeds of wind beyond which no leg is flown, and squares would not fit into a float."""
+
 
 def least_time(d: Displacement, wind: Wind, uav: Uav) -> float:
     """Return the least time of a leg [s]; ``inf`` where the UAV cannot hold the course."""
@@ -33,6 +36,8 @@ def least_time(d: Displacement, wind: Wind, uav: Uav) -> float:
 def _times_within_airspeed(d: Displacement, wind: Wind, u_max: float) -> tuple[float, float]:
     """Return the first and last T that solve the quadratic; ``(inf, 0)`` where none does."""
     length = hypot(*d)
+    if wind.speed > CARRIED_OFF * u_max:
+        return inf, 0.0
     # Scaled to O(1): times in still-air times of the leg, speeds in airspeeds.
     along = (d[0] * wind.u + d[1] * wind.v) / (length * u_max)
     a = (wind.speed / u_max) ** 2 - 1
