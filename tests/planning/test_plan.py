@@ -71,7 +71,6 @@ def test_no_time_still_gives_a_whole_plan_and_says_so(method):
     made = plan(FARM, FLEET, STRONG, forecaster="persistence", time_limit=0.0, method=method)
     assert windopt.check(made).passed
     assert "not proved" in made.inspection.reason.lower()
-    assert made.inspection.runtime < 1.0
 
 
 def test_set_points_and_flights_share_the_time_limit(monkeypatch):
