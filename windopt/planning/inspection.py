@@ -87,7 +87,7 @@ def plan_inspection(
         left = max(0.0, time_limit - (perf_counter() - start))
         found = solve(instance, gap=gap, time_limit=left, seed=seed, progress=progress)
     else:
-        found = Result(Status.OPTIMAL, (), 0.0, 0.0, 0.0, "no turbine is within reach")
+        found = Result(Status.OPTIMAL, (), 0.0, 0.0, 0.0, reason="No turbine is within reach.")
     result: Result[InspectionPlan] = found.carrying(None)
     if found.solution is not None:
         flights = _flights(found.solution, reached, everything, farm, fleet, dwells)

@@ -15,6 +15,8 @@ from typing import Any, Self
 import highspy
 import numpy as np
 
+from windopt.solving import watched
+
 POLL = 0.1
 """How often the main thread listens for an interrupt [s]."""
 
@@ -103,16 +105,7 @@ class Clock:
         """Run HiGHS until it is done or time is up; an interrupt by the user stops it at once."""
         self.check()
         model.setOptionValue("time_limit", model.getRunTime() + self.left)
-        model.HandleKeyboardInterrupt = True
-        solver = model.startSolve()
-        try:
-            while solver.is_alive():
-                solver.join(0.05)
-                if self.left <= 0.0:
-                    model.cancelSolve()
-        except BaseException:
-            model.cancelSolve()
-            solver.join()
-            raise
+        if watched.run(model, lambda news: None):
+            raise KeyboardInterrupt
         status: highspy.HighsModelStatus = model.getModelStatus()
         return status
