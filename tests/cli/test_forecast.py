@@ -70,13 +70,16 @@ def series(path, rows, speed="8.0", direction="90"):
 
 
 @pytest.mark.parametrize("rows", [3, 10])
-def test_a_series_too_short_is_refused(windopt, tmp_path, rows):
-    short = series(tmp_path / "short.csv", rows)
-    for command in (("evaluate", "shipped"), ("predict", "shipped"), ("train", "--out", "m.npz")):
-        code, out, err = windopt("forecast", *command, short)
-        assert code == 2
-        assert "Expected" in err
-        assert "Traceback" not in out + err
+@pytest.mark.parametrize(
+    "command", [("evaluate", "shipped"), ("predict", "shipped"), ("train", "--out", "m.npz")]
+)
+def test_a_series_too_short_is_refused(windopt, tmp_path, rows, command):
+    if command[0] == "train":
+        pytest.importorskip("torch")
+    code, out, err = windopt("forecast", *command, series(tmp_path / "short.csv", rows))
+    assert code == 2
+    assert "Expected" in err
+    assert "Traceback" not in out + err
 
 
 def test_a_series_of_nothing_is_refused(windopt, tmp_path):
