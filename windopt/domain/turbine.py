@@ -4,7 +4,11 @@ from dataclasses import dataclass, replace
 from math import isfinite, pi, sqrt
 from numbers import Real
 
+from windopt.domain.power_curve import PowerCurve
 from windopt.errors import InvalidInput
+
+CLEARANCE = 30.0
+"""Between the sea and the blades where a source is silent [m]; Horns Rev 1's V80 stand at 70 m."""
 
 
 def require_positive(field: str, value: float) -> None:
@@ -44,6 +48,9 @@ class TurbineType:
         Height of the rotor's centre above the sea [m]; ``None`` where the source is silent.
     power_coefficient
         Name of the C_p model, one of ``formulations.rotor.MODELS``.
+    curve
+        Its power and thrust over the wind speed; ``None`` where nothing is published, and then
+        they follow from the C_p model, see :meth:`PowerCurve.stand_in`.
     """
 
     name: str
@@ -53,6 +60,7 @@ class TurbineType:
     cut_out: float = 25.0
     hub_height: float | None = None
     power_coefficient: str = "slootweg"
+    curve: PowerCurve | None = None
 
     def __post_init__(self) -> None:
         require_positive("rated_power", self.rated_power)
@@ -69,6 +77,17 @@ class TurbineType:
         """Diameter of the circle swept by the blades [m]."""
         return sqrt(4 * self.swept_area / pi)
 
+    @property
+    def height(self) -> float:
+        """Height of the rotor's centre [m]; a usual one where the source is silent."""
+        return self.hub_height or self.rotor_diameter / 2 + CLEARANCE
+
+    def curve_by(self, C_p: float) -> PowerCurve:
+        """Return the turbine's curve, or the one that its largest power coefficient gives."""
+        return self.curve or PowerCurve.stand_in(
+            C_p, self.swept_area, self.rated_power, self.cut_in, self.cut_out
+        )
+
     def scaled_to(self, rated_power: float) -> "TurbineType":
         """Return a turbine of ``rated_power`` [W] with this one's power per swept area.
 
@@ -78,7 +97,9 @@ class TurbineType:
         """
         area = self.swept_area * rated_power / self.rated_power
         name = f"{rated_power / 1e6:g} MW, rotor scaled from {self.name}"
-        return replace(self, name=name, rated_power=rated_power, swept_area=area, hub_height=None)
+        curve = self.curve and self.curve.scaled(rated_power / self.rated_power)
+        scaled = replace(self, name=name, rated_power=rated_power, swept_area=area, curve=curve)
+        return replace(scaled, hub_height=None)
 
 
 SG_8_167 = TurbineType("SG 8.0-167 DD", rated_power=8e6, swept_area=21_900.0)

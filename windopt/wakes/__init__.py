@@ -1,0 +1,1 @@
+"""What turbines do to each other's wind: the exact model that judges every yaw set-point."""
