@@ -67,9 +67,8 @@ def in_python_integers(w, x):
                 row.append(activation(k, total, shift, unit))
             values.append(row)
         i, f, g, o = values
-        c = [(f[j] * c[j] + i[j] * g[j] + 2048) >> 12 for j in range(n)]
-        squashed = [round(one * tanh(((c[j] >> 3) + 0.5) / 512)) for j in range(n)]
-        h = [(o[j] * squashed[j] + 2048) >> 12 for j in range(n)]
+        c = [round((f[j] * c[j] + i[j] * g[j]) / one) for j in range(n)]
+        h = [round(o[j] * round(one * tanh(c[j] / one)) / one) for j in range(n)]
     return [sum(a * b for a, b in zip(row, h, strict=True)) for row in w.W_y.integers.tolist()]
 
 

@@ -8,15 +8,17 @@ already. For each gate, with W, U and the state h as integers,
     A_t = U h_{t-1} + P_t, \qquad P_t = \lfloor (r \, W x_t + \beta) / 2^{16} + \tfrac12 \rfloor
 
 counts its argument in units of (unit of U) / ONE; r and beta bring inputs and bias into these
-units, for all steps at once. A table then gives the logistic function or the tanh of A, and
+units, for all steps at once. A table then gives the logistic function or the tanh of A, another the
+tanh of the cell, and
 
 .. math::
 
-    c_t = \lfloor (f_t c_{t-1} + i_t g_t) / \mathrm{ONE} + \tfrac12 \rfloor, \qquad
-    h_t = \lfloor o_t \tanh(c_t) / \mathrm{ONE} + \tfrac12 \rfloor .
+    c_t = \operatorname{rint} \frac{f_t c_{t-1} + i_t g_t}{\mathrm{ONE}}, \qquad
+    h_t = \operatorname{rint} \frac{o_t \tanh c_t}{\mathrm{ONE}},
 
-Sums over the states run through floating-point BLAS: where no sum can reach 2^24 (float32) or 2^53
-(float64), floating point is integer arithmetic, and far quicker than NumPy's integer products.
+with ties to even. Every one of these integers runs through floating-point units, where it is far
+quicker: below 2^24 in float32 and 2^53 in float64, floating point *is* integer arithmetic, also
+of multiples of a power of two. The bounds are computed from the weights.
 """
 
 import numpy as np
@@ -31,10 +33,10 @@ ONE = 1 << ONE_BITS  # what gates, cells and states count 1 as
 INPUT_ONE = 1 << 8  # what inputs count 1 as
 INPUT_LIMIT = 8  # standard deviations at which inputs are cut
 FINE_BITS = 16  # of r and beta
-TABLE_STEP = 2.0**-9  # widest step between two entries of a table
-CELL_BITS = 3  # of a cell that its table passes over: a step of 2^-9 too
+TABLE_STEP = 2.0**-9  # widest step between two entries of a gate's table
 
 Integers = NDArray[np.int64]
+Floats = NDArray[np.floating]  # of which every one is an integer, or that times a power of two
 
 
 class _Gate:
@@ -51,11 +53,12 @@ class _Gate:
         self.shift = max(0, int(np.floor(np.log2(TABLE_STEP / self.unit))))
         self.half = (self.bound >> self.shift) + 1  # entries on either side of zero
 
-    def table(self, *, tanh: bool) -> NDArray[np.int16]:
-        """Values at the middle of each step of the argument, in ONEs."""
+    def table(self, *, tanh: bool) -> NDArray[np.float64]:
+        """Values at the middle of each step of the argument: tanh in ONEs, else as fractions."""
         middle = (np.arange(-self.half, self.half) + 0.5) * self.unit * (1 << self.shift)
-        values = np.tanh(middle) if tanh else (1 + np.tanh(middle / 2)) / 2
-        return np.rint(ONE * values).astype(np.int16)
+        if tanh:
+            return np.rint(ONE * np.tanh(middle))
+        return np.rint(ONE * (1 + np.tanh(middle / 2)) / 2) / ONE
 
 
 class IntegerNetwork:
@@ -81,23 +84,28 @@ class IntegerNetwork:
         i, f, g, o = (_Gate(*parts) for parts in zip(weights.W, weights.U, biases, strict=True))
         gates = (o, i, f, g)
         self._n, self._steps = len(o.U), steps
-        bound = max(gate.bound for gate in gates)
-        self.exact: type[np.floating] = np.float32 if bound < 1 << 24 else np.float64
-        self._U = np.asfortranarray(np.concatenate([gate.U for gate in gates]), dtype=self.exact)
-        self._W = np.concatenate([gate.W for gate in gates])
-        self._r = np.repeat([gate.r for gate in gates], self._n)[:, None]
-        self._beta = np.concatenate([gate.beta for gate in gates])[:, None]
-        tables = [gate.table(tanh=gate is g) for gate in gates]
-        self._table = np.concatenate(tables).astype(np.int64)
-        starts = np.cumsum([0, *map(len, tables[:-1])])
-        self._shift = np.repeat([gate.shift for gate in gates], self._n)[:, None]
-        middle = starts + [gate.half for gate in gates]
-        self._middle = np.repeat(middle, self._n)[:, None] << self._shift
-        half = steps * ONE >> CELL_BITS  # a cell gains one at most in a step
-        cells = (np.roll(np.arange(-half, half), half) + 0.5) / (ONE >> CELL_BITS)
-        self._tanh = np.rint(ONE * np.tanh(cells)).astype(np.int64)  # wraps: -1 is the last entry
+        self._lay_tables(gates, g)
         self._W_y = weights.W_y.integers.astype(np.float64)
         self._unit_y, self._b_y = weights.W_y.unit / ONE, weights.b_y
+        # P and A shifted to the entry of the gate's table: integers times powers of two
+        self._scale = np.repeat([2.0**-gate.shift for gate in gates], self._n)
+        U = self._scale[:, None] * np.concatenate([gate.U for gate in gates])
+        self._U = np.asfortranarray(U, dtype=self.exact)
+        fine = 2.0**-FINE_BITS
+        self._W = fine * np.concatenate([gate.r * gate.W for gate in gates]).T
+        self._beta = fine * np.concatenate([gate.beta for gate in gates]) + 0.5
+
+    def _lay_tables(self, gates: tuple[_Gate, ...], g: _Gate) -> None:
+        """Lay the gates' tables one after the other, and that of the cells."""
+        tables = [gate.table(tanh=gate is g) for gate in gates]
+        starts = np.cumsum([0, *map(len, tables[:-1])])
+        self._table, self._start = np.concatenate(tables), np.repeat(starts, self._n)
+        self._half = np.repeat([gate.half for gate in gates], self._n)
+        largest = max(gate.half << gate.shift for gate in gates) << 1
+        self.exact: type[np.floating] = np.float32 if largest < 1 << 24 else np.float64
+        cells = np.arange(-self._steps * ONE, self._steps * ONE + 1)  # gains one at most in a step
+        tanh = np.rint(ONE * np.tanh(cells / ONE))
+        self._tanh = np.roll(tanh, len(cells) // 2 + 1)  # wraps: -1 is the last entry
 
     def __call__(self, x: Single) -> Single:
         """Return the outputs ``(B, m)`` for the inputs ``(B, L, d)``."""
@@ -115,41 +123,34 @@ class IntegerNetwork:
         if self._steps < L:
             raise InvalidInput("history", f"of at most {self._steps} steps", L)
         many = (B,) if B > 1 else ()  # vectors are quicker than matrices of one column
-        driven = self._driven(x).reshape(L, 4 * n, *many)
-        shift = self._shift.reshape(4 * n, *[1] * len(many))
-        total = np.zeros((4 * n, *many), dtype=self.exact)
-        at, inner = np.empty(total.shape, np.int64), np.empty((n, *many), np.int64)
-        z = np.zeros((5 * n, *many), dtype=np.int64)  # o, i, f, g and c
-        product = np.empty((2 * n, *many), dtype=np.int64)
+        total, h = (np.zeros((rows, *many), dtype=self.exact) for rows in (4 * n, n))
+        at, cell = (np.empty((rows, *many), dtype=np.intp) for rows in (4 * n, n))
+        start = self._start.reshape(4 * n, *[1] * len(many))
+        z = np.zeros((5 * n, *many))  # o, i, f, g and c
+        product = np.empty((2 * n, *many))
         pushed, kept = product[:n], product[n:]
         gates, o, c = z[: 4 * n], z[:n], z[4 * n :]
         left, right = z[n : 3 * n], z[3 * n :]  # (i, f) and (g, c)
-        h = np.zeros((n, *many), dtype=self.exact)
-        rounding = np.int64(ONE >> 1)
-        for P in driven:
+        for P in self._driven(x).reshape(L, 4 * n, *many):
             np.dot(self._U, h, total)
-            np.copyto(at, total, "unsafe")
-            np.add(at, P, at)
-            np.right_shift(at, shift, at)
+            np.add(total, P, total)
+            np.copyto(at, total, "unsafe")  # cuts off what the shift leaves behind the point
+            np.add(at, start, at)
             self._table.take(at, out=gates, mode="clip")
             np.multiply(left, right, product)
             np.add(pushed, kept, c)
-            np.add(c, rounding, c)
-            np.right_shift(c, ONE_BITS, c)
-            np.right_shift(c, CELL_BITS, inner)
-            self._tanh.take(inner, out=pushed, mode="wrap")
-            np.multiply(o, pushed, inner)
-            np.add(inner, rounding, inner)
-            np.right_shift(inner, ONE_BITS, inner)
-            np.copyto(h, inner, "unsafe")
+            np.rint(c, c)
+            np.copyto(cell, c, "unsafe")
+            self._tanh.take(cell, out=pushed, mode="wrap")
+            np.multiply(o, pushed, pushed)
+            np.rint(pushed, h)
         sums: Integers = (self._W_y @ h.reshape(n, B).astype(float)).astype(np.int64).T
         return sums
 
-    def _driven(self, x: Single) -> Integers:
-        """P of each step, with the middle of each gate's table added, shape ``(L, 4 n, B)``."""
+    def _driven(self, x: Single) -> Floats:
+        """P of each step, shifted and counted from its table's start, shape ``(L, 4 n, B)``."""
         limit = INPUT_ONE * INPUT_LIMIT
-        whole = np.clip(np.rint(INPUT_ONE * x.astype(float)), -limit, limit).astype(np.int64)
-        sums = self._W @ whole.transpose(1, 2, 0)
-        P = (self._r * sums + self._beta + (1 << (FINE_BITS - 1))) >> FINE_BITS
-        driven: Integers = P + self._middle
-        return driven
+        whole = np.clip(np.rint(INPUT_ONE * x.astype(float)), -limit, limit)
+        P = np.floor(whole @ self._W + self._beta)
+        driven = (self._scale * P + self._half).transpose(1, 2, 0)
+        return driven.astype(self.exact, order="C")

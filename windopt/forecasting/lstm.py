@@ -19,7 +19,7 @@ from windopt.forecasting.integer_network import IntegerNetwork
 from windopt.forecasting.model import Model
 from windopt.forecasting.network import FloatNetwork, Network, QuantisedWeights, Weights
 from windopt.forecasting.sparse_network import SparseNetwork
-from windopt.forecasting.windows import HISTORY, HORIZON, Traces
+from windopt.forecasting.windows import HISTORY, HORIZON, Traces, steps_in
 
 if TYPE_CHECKING:
     from windopt.forecasting.training.fit import Recipe
@@ -102,7 +102,7 @@ class EdgeForecaster:
         model = self._chosen()
         weights = model.weights
         if isinstance(weights, QuantisedWeights) and self.arithmetic is Arithmetic.INTEGER:
-            return IntegerNetwork(weights)
+            return IntegerNetwork(weights, steps_in(model.history, model.step, "history"))
         if isinstance(weights, QuantisedWeights) and self.arithmetic is Arithmetic.SPARSE:
             return SparseNetwork(weights)
         return FloatNetwork(model.float_weights)
