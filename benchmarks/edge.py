@@ -82,7 +82,7 @@ def in_torch(weights: Weights) -> Iterator[tuple[str, Run]]:
 
 def in_onnx(weights: Weights) -> Iterator[tuple[str, Run]]:
     """Yield ONNX Runtime in floats, and with weights and activations in int8."""
-    import onnxruntime  # type: ignore[import-not-found,unused-ignore]
+    import onnxruntime
 
     options = onnxruntime.SessionOptions()
     options.intra_op_num_threads = 1
@@ -99,8 +99,8 @@ def in_onnx(weights: Weights) -> Iterator[tuple[str, Run]]:
 
 def in_int8(graph: bytes) -> bytes:
     """Return the graph with its weights in int8 and its activations quantised as they come."""
-    import onnx  # type: ignore[import-not-found,unused-ignore]
-    from onnxruntime.quantization import (  # type: ignore[import-not-found,unused-ignore]
+    import onnx
+    from onnxruntime.quantization import (
         QuantType,
         quantize_dynamic,
     )
@@ -113,7 +113,7 @@ def in_int8(graph: bytes) -> bytes:
 
 def onnx_graph(weights: Weights) -> bytes:
     """Return the network as an ONNX graph; its gates are in the order i, o, f, c."""
-    from onnx import TensorProto, helper, numpy_helper  # type: ignore[import-not-found,unused-ignore]
+    from onnx import TensorProto, helper, numpy_helper
 
     def reordered(array: Single) -> Single:
         i, f, c, o = np.split(array, 4)

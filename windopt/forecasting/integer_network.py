@@ -53,12 +53,11 @@ class _Gate:
         self.shift = max(0, int(np.floor(np.log2(TABLE_STEP / self.unit))))
         self.half = (self.bound >> self.shift) + 1  # entries on either side of zero
 
-    def table(self, *, tanh: bool) -> NDArray[np.float64]:
+    def table(self, *, tanh: bool) -> Floats:
         """Values at the middle of each step of the argument: tanh in ONEs, else as fractions."""
         middle = (np.arange(-self.half, self.half) + 0.5) * self.unit * (1 << self.shift)
-        if tanh:
-            return np.rint(ONE * np.tanh(middle))
-        return np.rint(ONE * (1 + np.tanh(middle / 2)) / 2) / ONE
+        values: Floats = np.tanh(middle) if tanh else (1 + np.tanh(middle / 2)) / 2
+        return np.rint(ONE * values) / (1 if tanh else ONE)
 
 
 class IntegerNetwork:
@@ -152,5 +151,5 @@ class IntegerNetwork:
         limit = INPUT_ONE * INPUT_LIMIT
         whole = np.clip(np.rint(INPUT_ONE * x.astype(float)), -limit, limit)
         P = np.floor(whole @ self._W + self._beta)
-        driven = (self._scale * P + self._half).transpose(1, 2, 0)
-        return driven.astype(self.exact, order="C")
+        driven: Floats = (self._scale * P + self._half).astype(self.exact)
+        return np.ascontiguousarray(driven.transpose(1, 2, 0))
