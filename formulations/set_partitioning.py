@@ -26,7 +26,7 @@ from dataclasses import dataclass
 
 import highspy
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csc_array, csr_array
 
 INF = highspy.kHighsInf
@@ -84,7 +84,7 @@ def set_partitioning(
     *,
     integer: bool = True,
     cover: bool = False,
-    price: float | None = None,
+    price: ArrayLike | None = None,
 ) -> SetPartitioning:
     """Build the rows (2)-(4); flights come later.
 
@@ -99,8 +99,8 @@ def set_partitioning(
     cover
         Whether (2) reads >= 1.
     price
-        The price p of leaving a turbine out; None where none may be. The first n columns are
-        then y.
+        The price p of leaving each turbine out, shape ``(n,)`` or one for all; None where none
+        may be left out. The first n columns are then y.
     """
     model = highspy.Highs()
     model.silent()
@@ -113,7 +113,7 @@ def set_partitioning(
     if price is not None:
         each = np.arange(n)
         program.add_flights(
-            np.full(n, price),
+            np.broadcast_to(np.asarray(price, float), n).copy(),
             csc_array((np.ones(n), (each, each)), shape=(n + len(counts), n)),
         )  # y
     return program

@@ -38,6 +38,12 @@ class RoutingInstance:
         Whether station d may serve turbine i, shape ``(k, n)``.
     airspeed
         Greatest airspeed of each station's UAV [m/s], shape ``(k,)``; unlimited unless given.
+    prize
+        What inspecting each turbine is worth [s of flight], shape ``(n,)``: a plan may leave it
+        out and pays the prize. Every turbine must be inspected unless given.
+    max_flights
+        Most flights of each station, shape ``(k,)``, ``inf`` for any number; any number unless
+        given. It asks for a prize, as not every turbine may then fit.
     """
 
     t: NDArray[np.float64]
@@ -47,6 +53,8 @@ class RoutingInstance:
     w: NDArray[np.float64]
     allowed: NDArray[np.bool_]
     airspeed: NDArray[np.float64] | float = inf
+    prize: NDArray[np.float64] | None = None
+    max_flights: NDArray[np.float64] | None = None
 
     def __post_init__(self) -> None:
         k, n = len(self.stations), len(self.turbines)
@@ -56,14 +64,23 @@ class RoutingInstance:
             ("w", self.w, (2,)),
             ("allowed", self.allowed, (k, n)),
             ("airspeed", np.asarray(self.airspeed), (k,) if np.ndim(self.airspeed) else ()),
+            ("prize", self.prize, (n,)),
+            ("max_flights", self.max_flights, (k,)),
         ):
-            if array.shape != shape:
+            if array is not None and array.shape != shape:
                 raise InvalidInput(field, f"of shape {shape}", array.shape)
         for field, limits in ("t_max", self.t_max), ("airspeed", self.airspeed):
             if not np.all(np.greater(limits, 0)):
                 raise InvalidInput(field, "> 0", limits)
         if np.isnan(self.t).any() or (self.t < 0).any():
             raise InvalidInput("t", ">= 0", "a negative or missing time")
+        if self.prize is not None and not ((self.prize >= 0) & np.isfinite(self.prize)).all():
+            raise InvalidInput("prize", ">= 0 and finite", self.prize)
+        if self.max_flights is not None:
+            if self.prize is None:
+                raise InvalidInput("prize", "where flights are limited", "none")
+            if not (self.max_flights >= 0).all():
+                raise InvalidInput("max_flights", ">= 0", self.max_flights)
 
     @property
     def round_trip(self) -> NDArray[np.float64]:
@@ -83,3 +100,11 @@ class RoutingInstance:
     def total(self, routes: tuple[Route, ...]) -> float:
         """Time of all flights together [s]."""
         return sum(self.duration(route) for route in routes)
+
+    def cost(self, routes: tuple[Route, ...]) -> float:
+        """Time of all flights together, and the prizes of the turbines they leave out [s]."""
+        if self.prize is None:
+            return self.total(routes)
+        left_out = np.ones(len(self.turbines), bool)
+        left_out[[i for route in routes for i in route.turbines]] = False
+        return self.total(routes) + float(self.prize[left_out].sum())

@@ -12,8 +12,6 @@ one to a module.
 from collections.abc import Callable
 from math import inf
 
-import numpy as np
-
 from windopt.domain.routing import Route, RoutingInstance
 from windopt.errors import InvalidInput
 from windopt.result import Result, Status
@@ -41,7 +39,7 @@ def column_generation(
     memory: float = 4e9,
     progress: Callable[[float, float], None] | None = None,
 ) -> Result[tuple[Route, ...]]:
-    """Find the plan of least total time, and prove that it is.
+    """Find the plan of least total time, or time and prizes left behind, and prove that it is.
 
     Parameters
     ----------
@@ -87,17 +85,17 @@ def column_generation(
 def _begin(search: Search, start: tuple[Route, ...] | None, seed: int) -> None:
     """Find a good plan."""
     search.offer(alone(search.networks))
+    search.offer(())
     if start is not None:
         search.offer([(route.station, route.turbines) for route in start])
-    if search.flights:
+    if search.found:
         improve(search, seed)
     search.note("start")
 
 
 def _prove(search: Search, memory: float) -> None:
     """Raise the bound to the plan, or find a better plan."""
-    anywhere = np.tile([0.0, inf], (len(search.networks) + 1, 1))
-    relaxation = Relaxation(search, memory, counts=anywhere)
+    relaxation = Relaxation(search, memory, search.counts)
     relaxation.solve()
     while relaxation.grow_neighbourhoods():
         relaxation.solve()
@@ -116,7 +114,7 @@ def _result(search: Search, stopped: Status) -> Result[tuple[Route, ...]]:
     """Return what is known."""
     runtime = search.clock.elapsed
     bound = search.bound * search.unit
-    if not search.flights:
+    if not search.found:
         return Result(Status.NO_SOLUTION, None, inf, bound, runtime, SOURCE)
     status = Status.OPTIMAL if search.closed else stopped
     objective = search.objective * search.unit

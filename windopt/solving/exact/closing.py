@@ -36,7 +36,9 @@ def close(
     delta = min(reach, gap)
     while delta >= SMALLEST * gap:
         networks = fixing.useful(relaxation.pricer.networks, delta)
-        pool = enumerate_flights(networks, fixing, delta, effort, relaxation.memory, search.clock)
+        pool = enumerate_flights(
+            networks, fixing, delta, effort, relaxation.memory, search.clock, apart=search.limited
+        )
         if pool is not None:
             _choose(pool, relaxation, fixing.value, delta, search)
             break

@@ -1,7 +1,8 @@
 """Enumeration: all flights of a reduced cost below the gap, each set of turbines once.
 
 Half flights are joined, and the flights hashed on their set, keeping the fastest over all
-stations. A plan cheaper than dual bound + gap uses no other flight [1].
+stations, or for each station where these may be short of flights. A plan cheaper than dual
+bound + gap uses no other flight [1].
 
 * [1] Baldacci, Christofides & Mingozzi (2008), *Mathematical Programming* 115, 351-385.
 """
@@ -49,24 +50,29 @@ class Sets(NamedTuple):
 
 
 @compiled
-def _slot(slots: Ints, sets: Sets, row: int) -> np.uint64:
-    """Return the slot of the turbines in ``row``."""
+def _slot(slots: Ints, sets: Sets, row: int, apart: bool) -> np.uint64:
+    """Return the slot of the turbines in ``row``, and of its station where these are ``apart``."""
     mask = np.uint64(len(slots) - 1)
-    slot = row_hash(sets.set, row, 0) & mask
-    while slots[slot] >= 0 and not same_rows(sets.set, slots[slot], row):
+    slot = row_hash(sets.set, row, sets.station[row] if apart else 0) & mask
+    while slots[slot] >= 0:
+        other = slots[slot]
+        alike = not apart or sets.station[other] == sets.station[row]
+        if alike and same_rows(sets.set, other, row):
+            break
         slot = (slot + ONE) & mask
     return slot
 
 
 @compiled
 def _record(
-    sets: Sets, slots: Ints, count: int, cost: float, d: int, ahead: int, behind: int
+    sets: Sets, slots: Ints, count: int, cost: float, d: int, ahead: int, behind: int, apart: bool
 ) -> tuple[Ints, int]:
     """Keep the flight whose turbines are in row ``count`` if it is the fastest of its set.
 
     Returns the hash table and the number of flights in use.
     """
-    slot = _slot(slots, sets, count)
+    sets.station[count] = d
+    slot = _slot(slots, sets, count, apart)
     row = slots[slot]
     if row < 0:
         row = slots[slot] = count
@@ -74,7 +80,7 @@ def _record(
         if 2 * count > len(slots):
             slots = empty_slots(4 * len(slots))
             for old in range(count):
-                slots[_slot(slots, sets, old)] = old
+                slots[_slot(slots, sets, old, apart)] = old
     elif sets.cost[row] <= cost:
         return slots, count
     sets.cost[row], sets.station[row], sets.ahead[row], sets.behind[row] = cost, d, ahead, behind
@@ -112,6 +118,7 @@ def join_halves(
     slots: Ints,
     count: int,
     d: int,
+    apart: bool,
     stop: NDArray[np.uint8],
 ) -> tuple[Ints, int, bool]:
     """Add the flights of station d of cost ``limit`` or less to ``sets``.
@@ -124,6 +131,8 @@ def join_halves(
 
     slots
         Hash table of the flights in ``sets``, a power of two long: rows, or -1.
+    apart
+        Whether to keep a flight over each set for each station.
 
     Returns
     -------
@@ -138,7 +147,7 @@ def join_halves(
             if count == capacity:
                 return slots, count, False
             _union(sets, count, backward.set, b, backward.set, -1)
-            slots, count = _record(sets, slots, count, whole, d, -1, b)
+            slots, count = _record(sets, slots, count, whole, d, -1, b, apart)
     for f in range(len(forward.T)):
         if stop[0] != 0:
             return slots, count, False
@@ -148,7 +157,7 @@ def join_halves(
             if count == capacity:
                 return slots, count, False
             _union(sets, count, forward.set, f, backward.set, -1)
-            slots, count = _record(sets, slots, count, whole, d, f, -1)
+            slots, count = _record(sets, slots, count, whole, d, f, -1, apart)
         for e in range(side.degree[i]):
             j = side.heads[i, e]
             t, c = forward.T[f] + side.legs[i, j], forward.C[f] + side.legs[i, j]
@@ -170,12 +179,20 @@ def join_halves(
                     if count == capacity:
                         return slots, count, False
                     _union(sets, count, forward.set, f, backward.set, b)
-                    slots, count = _record(sets, slots, count, t + backward.T[b], d, f, b)
+                    t_whole = t + backward.T[b]
+                    slots, count = _record(sets, slots, count, t_whole, d, f, b, apart)
     return slots, count, True
 
 
 def enumerate_flights(
-    networks: list[Network], fixing: Fixing, gap: float, effort: int, memory: float, clock: Clock
+    networks: list[Network],
+    fixing: Fixing,
+    gap: float,
+    effort: int,
+    memory: float,
+    clock: Clock,
+    *,
+    apart: bool = False,
 ) -> Pool | None:
     """Return all flights of a reduced cost up to ``gap``.
 
@@ -188,6 +205,8 @@ def enumerate_flights(
         the flights.
     memory
         What half flights and flights may take [bytes].
+    apart
+        Whether to keep a flight over each set for each station, not the fastest only.
 
     Returns
     -------
@@ -218,7 +237,7 @@ def enumerate_flights(
             join_halves,
             [forward], [backward], [order], [groups], [width], [network.forward],
             [prices.penalty], [network.t_max], [network.half], [limit],
-            [sets], [slots], [count], [d], [clock.stop],
+            [sets], [slots], [count], [d], [apart], [clock.stop],
         )  # fmt: skip
         if not whole:
             return None

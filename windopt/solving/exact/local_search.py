@@ -41,12 +41,24 @@ NOWHERE = -1
 
 
 class Legs(NamedTuple):
-    """Times of all stations: shapes ``(k, n)``, ``(k, n, n)``, ``(k, n)`` and ``(k,)``."""
+    """What flights cost and may be.
+
+    Attributes
+    ----------
+    out, between, back
+        Times of all stations, shapes ``(k, n)``, ``(k, n, n)`` and ``(k, n)``.
+    t_max, most
+        Longest flight and most flights of each station, shape ``(k,)``.
+    prize
+        Cost of leaving each turbine out, shape ``(n,)``.
+    """
 
     out: Floats
     between: Floats
     back: Floats
     t_max: Floats
+    most: Floats
+    prize: Floats
 
 
 class Tours(NamedTuple):
@@ -55,7 +67,7 @@ class Tours(NamedTuple):
     Attributes
     ----------
     after, before, flight
-        Of each turbine: its neighbours on its flight, and the flight.
+        Of each turbine: its neighbours on its flight, and the flight, if it is on one.
     first, last, station, size, time
         Of each flight.
     """
@@ -134,13 +146,12 @@ def _remove(tours: Tours, legs: Legs, i: int) -> None:
 
 
 @compiled
-def _ruin(tours: Tours, legs: Legs, near: Ints, gone: Ints, torn: Ints, mark: int) -> int:
-    """Tear strings out of flights near a random turbine; ``gone`` lists the turbines."""
+def _ruin(tours: Tours, legs: Legs, near: Ints, torn: Ints, mark: int) -> None:
+    """Tear strings out of flights near a random turbine."""
     n = len(near)
-    flying = (tours.size > 0).sum()
+    flying = max(1, (tours.size > 0).sum())
     string = max(1.0, min(float(STRING), n / flying))
     strings = int(np.random.random() * (4.0 * REMOVED / (1.0 + string) - 1.0) + 1.0)
-    count = 0
     for i in near[np.random.randint(n)]:
         r = tours.flight[i]
         if strings == 0:
@@ -161,15 +172,19 @@ def _ruin(tours: Tours, legs: Legs, near: Ints, gone: Ints, torn: Ints, mark: in
                 break
             following = tours.after[j]
             _remove(tours, legs, j)
-            gone[count] = j
-            count += 1
             j = following
-    return count
 
 
 @compiled
 def _recreate(tours: Tours, legs: Legs, near: Ints, gone: Ints) -> bool:
-    """Put each turbine of ``gone`` where it costs least; tell whether all found a place."""
+    """Put each turbine of ``gone`` where it costs least, unless its prize is less.
+
+    Tells whether all that must be inspected found a place.
+    """
+    sent = np.zeros(len(legs.most))
+    for r in range(len(tours.size)):
+        if tours.size[r] > 0:
+            sent[tours.station[r]] += 1.0
     for i in gone:
         best, flight, behind, station = np.inf, NOWHERE, NOWHERE, NOWHERE
         for j in near[i, 1:]:
@@ -186,18 +201,31 @@ def _recreate(tours: Tours, legs: Legs, near: Ints, gone: Ints) -> bool:
                 best, flight, behind = astern, r, j
         for d in range(len(legs.t_max)):
             alone = legs.out[d, i] + legs.back[d, i]
-            if alone < best and alone <= legs.t_max[d] + SLACK:
+            if alone < best and alone <= legs.t_max[d] + SLACK and sent[d] < legs.most[d]:
                 best, station, flight, behind = alone, d, NOWHERE, NOWHERE
-        if flight < 0:
-            if station < 0:
+        if best >= legs.prize[i]:
+            if legs.prize[i] == np.inf:
                 return False
+            continue
+        if flight < 0:
             flight = 0
             while tours.size[flight] > 0:
                 flight += 1
             tours.station[flight] = station
+            sent[station] += 1.0
             tours.first[flight] = tours.last[flight] = NOWHERE
         _insert(tours, legs, i, flight, behind)
     return True
+
+
+@compiled
+def _cost(tours: Tours, legs: Legs) -> float:
+    """Return the time of all flights and the prizes they leave behind."""
+    cost = tours.time.sum()
+    for i in range(len(tours.flight)):
+        if tours.flight[i] < 0:
+            cost += legs.prize[i]
+    return float(cost)
 
 
 @compiled
@@ -225,16 +253,16 @@ def _anneal(
     np.random.seed(seed)
     n = len(near)
     now, trial = _clone(tours), _clone(tours)
-    best = cost = tours.time.sum()
-    gone = np.empty(n, np.int32)
+    best = cost = _cost(tours, legs)
     torn = np.full(n, -1, np.int32)
     for iteration in range(len(temperatures)):
         if stop[0] != 0:
             return
-        count = _ruin(trial, legs, near, gone, torn, iteration)
-        _shuffle(gone[:count], remoteness)
-        placed = _recreate(trial, legs, near[:, :CLOSE], gone[:count])
-        changed = trial.time.sum()
+        _ruin(trial, legs, near, torn, iteration)
+        gone = np.flatnonzero(trial.flight < 0).astype(np.int32)
+        _shuffle(gone, remoteness)
+        placed = _recreate(trial, legs, near[:, :CLOSE], gone)
+        changed = _cost(trial, legs)
         if placed and changed < cost - temperatures[iteration] * np.log(np.random.random()):
             cost = changed
             _copy(trial, now)
@@ -273,6 +301,8 @@ def improve(search: Search, seed: int) -> None:
         np.array([np.where(np.isfinite(network.legs), network.legs, FAR) for network in networks]),
         np.array([network.back for network in networks]),
         np.array([network.t_max for network in networks]),
+        search.counts[:-1, 1],
+        search.prize,
     )
     distance = np.minimum.reduce(legs.between)
     typical = float(np.median(distance.min(axis=1)))

@@ -13,7 +13,7 @@ from windopt.solving.exact.network import Floats, Network
 from windopt.solving.exact.subset_row_cuts import Column, Cuts, Path
 
 MISSING = 5.0
-"""Cost of leaving a turbine out, in t_max: more than any flight saves by it."""
+"""Cost of leaving out a turbine that must not be, in t_max: more than any flight saves by it."""
 
 
 @dataclass(frozen=True)
@@ -64,15 +64,23 @@ class Master:
         One for each station.
     counts
         Least and largest number of flights of each station, and of all, shape ``(k + 1, 2)``.
+    prize
+        Cost of leaving each turbine out, infinite where it must be inspected; shape ``(n,)``.
     columns
         Flights to start from.
     """
 
     def __init__(
-        self, networks: list[Network], counts: Floats, columns: Iterable[Column] = ()
+        self,
+        networks: list[Network],
+        counts: Floats,
+        prize: Floats,
+        columns: Iterable[Column] = (),
     ) -> None:
         self.networks = networks
         self.counts = counts
+        longest = max(network.t_max for network in networks)
+        self.price = np.where(np.isfinite(prize), prize, MISSING * longest)
         self.cuts = Cuts.none(len(networks[0].out))
         self.columns: list[Column] = []
         self._known: set[tuple[int, Path]] = set()
@@ -95,9 +103,8 @@ class Master:
         """Start anew with ``columns`` and, where given, ``cuts``."""
         columns = list(columns)
         self.cuts = self.cuts if cuts is None else cuts
-        price = MISSING * max(network.t_max for network in self.networks)
         self._program = set_partitioning(
-            self.n, self.counts, integer=False, cover=True, price=price
+            self.n, self.counts, integer=False, cover=True, price=self.price
         )
         self._program.add_subset_rows(csr_array((len(self.cuts), self.n)))
         self.columns, self._known = [], set()
@@ -149,9 +156,8 @@ class Master:
         self.value = model.getInfo().objective_function_value
         dual = np.array(solution.row_dual)
         rows = self.n + len(self.counts)
-        return Duals(
-            np.maximum(dual[: self.n], 0.0), dual[self.n : rows], np.maximum(-dual[rows:], 0.0)
-        )
+        pi = np.clip(dual[: self.n], 0.0, self.price)  # the solver keeps this but for rounding
+        return Duals(pi, dual[self.n : rows], np.maximum(-dual[rows:], 0.0))
 
     def reduced_costs(self) -> Floats:
         """Return the reduced cost of each column."""

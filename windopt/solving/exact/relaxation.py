@@ -81,7 +81,7 @@ class Relaxation:
 
     def __post_init__(self) -> None:
         networks = self.search.networks
-        self.master = Master(networks, self.counts)
+        self.master = Master(networks, self.counts, self.search.prize)
         flights = (*alone(networks), *self.search.flights)
         self.master.add(self.master.column(d, path) for d, path in flights)
         round_trips = np.minimum.reduce([network.legs + network.legs.T for network in networks])

@@ -45,55 +45,82 @@ class Search:
         progress: Callable[[float, float], None] | None = None,
     ) -> None:
         self.networks, self.unit = networks(instance)
+        self.n = len(instance.turbines)
+        self.prize = _prizes(instance) / self.unit
+        self.counts = _counts(instance)
         self.clock = clock
         self.flights: tuple[Flight, ...] = ()
         self.objective = inf
-        self.bound = _arrivals(self.networks)
-        self.n = len(instance.turbines)
+        self.bound = _arrivals(self.networks, self.prize)
         self._gap = gap
         self._progress = progress
         self._merge = all(_obeys_triangle(network) for network in self.networks)
 
     @property
+    def found(self) -> bool:
+        """Whether there is a plan."""
+        return self.objective < inf
+
+    @property
+    def partial(self) -> bool:
+        """Whether a plan may leave turbines out."""
+        return bool(np.isfinite(self.prize).any())
+
+    @property
+    def limited(self) -> bool:
+        """Whether a station may be short of flights, so that who flies matters beside the time."""
+        return bool(np.isfinite(self.counts[:-1, 1]).any())
+
+    @property
+    def forfeit(self) -> Floats:
+        """What leaving each turbine out costs, no more than a plan of interest may."""
+        return np.minimum(self.prize, self.ceiling)
+
+    @property
     def closed(self) -> bool:
         """Whether the bound proves the plan, within the gap asked for."""
-        allowed = max(CLOSED, self._gap * self.objective) if self.flights else 0.0
+        allowed = max(CLOSED, self._gap * self.objective) if self.found else 0.0
         return self.objective - self.bound <= allowed
 
     @property
     def ceiling(self) -> float:
         """A value that every plan of interest keeps below."""
+        if self.found:
+            return self.objective
         longest = max(network.t_max for network in self.networks)
-        return min(self.objective, self.n * longest + 1.0)
+        return self.n * longest + 1.0
 
     @property
     def most_flights(self) -> float:
         """Return how many flights a plan no worse than this one needs at most.
 
         Two flights of one station that fit into one t_max together are one flight at no greater
-        cost, so all but one flight of a station take more than half of t_max on average.
+        cost, so all but one flight of a station take more than half of t_max on average. That
+        leaves out no turbine more, and the flights take no longer than time and prizes together.
         """
-        if not (self._merge and self.flights):
-            return float(self.n)
+        most = min(float(self.n), float(self.counts[:-1, 1].sum()))
+        if not (self._merge and self.found):
+            return most
         shortest = min(network.t_max for network in self.networks)
-        return min(float(self.n), 2 * self.objective / shortest + len(self.networks))
+        return min(most, 2 * self.objective / shortest + len(self.networks))
 
     @property
     def unreachable(self) -> NDArray[np.intp]:
-        """Turbines that no flight can visit in time."""
+        """Turbines that must be inspected and that no flight can visit in time."""
         nets = self.networks
         fits = [net.forward.rest + net.backward.rest <= net.t_max + SLACK for net in nets]
-        return np.flatnonzero(~np.any(fits, axis=0))
+        return np.flatnonzero(~np.any(fits, axis=0) & np.isinf(self.prize))
 
     def offer(self, flights: Sequence[Flight]) -> bool:
         """Take a plan if it is better than the one at hand, and tell whether it was."""
-        visited = sorted(i for _, path in flights for i in path)
+        visits = np.bincount([i for _, path in flights for i in path], minlength=self.n)
+        sent = np.bincount([d for d, _ in flights], minlength=len(self.networks))
         times = [self.networks[d].duration(path) for d, path in flights]
         limits = [self.networks[d].t_max + 10 * SLACK for d, _ in flights]
-        if visited != list(range(self.n)) or (np.array(times) > np.array(limits)).any():
+        if (visits > 1).any() or (np.array(times) > np.array(limits)).any():
             return False
-        objective = sum(times)
-        if objective >= self.objective - 1e-9:
+        objective = sum(times) + float(self.prize[visits == 0].sum())
+        if (sent > self.counts[:-1, 1]).any() or not objective < self.objective - 1e-9:
             return False
         if objective < self.bound - TOLERATED:
             raise ProofError(f"A plan of {objective} lies below the bound {self.bound}.")
@@ -121,15 +148,28 @@ class Search:
         LOGGER.debug("%7.2f s  plan %.2f  bound %.2f  " + what, *state, *values)
 
     def _tell(self) -> None:
-        if self._progress and self.flights:
+        if self._progress and self.found:
             self._progress(self.objective * self.unit, self.bound * self.unit)
 
 
-def _arrivals(networks: list[Network]) -> float:
-    """Bound any plan by the shortest leg to each turbine and the shortest leg home."""
+def _prizes(instance: RoutingInstance) -> Floats:
+    """Return the prize of each turbine [s], infinite where it must be inspected."""
+    return np.full(len(instance.turbines), inf) if instance.prize is None else instance.prize
+
+
+def _counts(instance: RoutingInstance) -> Floats:
+    """Return the least and most flights of each station, and of all, shape ``(k + 1, 2)``."""
+    counts = np.tile([0.0, inf], (len(instance.t) + 1, 1))
+    if instance.max_flights is not None:
+        counts[:-1, 1] = instance.max_flights
+    return counts
+
+
+def _arrivals(networks: list[Network], prize: Floats) -> float:
+    """Bound any plan by the shortest leg to each turbine, or its prize, and the shortest home."""
     arrive = np.min([np.minimum(net.out, net.legs.min(axis=0, initial=inf)) for net in networks], 0)
     home = min(float(net.back.min(initial=inf)) for net in networks)
-    return float(arrive.sum()) + home
+    return float(np.minimum(arrive, prize).sum()) + (home if np.isinf(prize).any() else 0.0)
 
 
 def _obeys_triangle(network: Network) -> bool:

@@ -68,9 +68,10 @@ def minimise(pool: Pool, triples: Triples, counts: Floats, search: Search) -> fl
     """
     if not len(pool):
         return np.inf
-    program = set_partitioning(search.n, counts)
+    program = set_partitioning(search.n, counts, price=search.forfeit if search.partial else None)
     model = program.model
-    program.add_subset_rows(csr_array((len(triples), 0)))
+    before = model.getNumCol()
+    program.add_subset_rows(csr_array((len(triples), before)))
     members = pool.members(search.n)
     program.add_flights(pool.cost, flight_rows(members, pool.station, len(counts), triples))
     model.setOptionValue("mip_rel_gap", 0.0)
@@ -81,6 +82,6 @@ def minimise(pool: Pool, triples: Triples, counts: Floats, search: Search) -> fl
     if status == highspy.HighsModelStatus.kInfeasible:
         return np.inf
     if info.primal_solution_status == highspy.SolutionStatus.kSolutionStatusFeasible:
-        x = np.array(model.getSolution().col_value)
+        x = np.array(model.getSolution().col_value)[before:]
         search.offer([(int(pool.station[r]), pool.path(int(r))) for r in np.flatnonzero(x > 0.5)])
     return float(info.mip_dual_bound)

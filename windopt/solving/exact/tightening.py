@@ -66,11 +66,11 @@ class Selection:
     triples
         Subset rows to begin with.
     price
-        Of leaving a turbine out, so dear that a plan of interest leaves out none.
+        Of leaving each turbine out, shape ``(n,)``.
     """
 
-    def __init__(self, n: int, counts: Floats, triples: Triples, price: float) -> None:
-        self.n, self.counts, self.triples = n, counts, triples
+    def __init__(self, n: int, counts: Floats, triples: Triples, price: Floats) -> None:
+        self.n, self.counts, self.triples, self.price = n, counts, triples, price
         self.members: Bools = np.zeros((0, n), bool)
         self.station: Ints = np.zeros(0, np.int32)
         self._program = set_partitioning(n, counts, integer=False, cover=True, price=price)
@@ -98,9 +98,8 @@ class Selection:
         solution = model.getSolution()
         dual = np.array(solution.row_dual)
         rows = self.n + len(self.counts)
-        duals = Duals(
-            np.maximum(dual[: self.n], 0.0), dual[self.n : rows], np.maximum(-dual[rows:], 0.0)
-        )
+        pi = np.clip(dual[: self.n], 0.0, self.price)
+        duals = Duals(pi, dual[self.n : rows], np.maximum(-dual[rows:], 0.0))
         return duals, np.array(solution.col_value)[self.n :]
 
 
@@ -150,7 +149,7 @@ def tighten(
     """
     inside = np.zeros(len(pool), bool)
     inside[np.argsort(reduced, kind="stable")[:FIRST]] = True
-    selection = Selection(search.n, counts, triples, search.ceiling)
+    selection = Selection(search.n, counts, triples, search.forfeit)
     selection.add(pool.kept(inside))
     before = -np.inf
     for _ in range(ROUNDS):
