@@ -1,33 +1,67 @@
-"""``python -m benchmarks run NAME ...`` measures; ``python -m benchmarks report`` makes a table."""
+"""Measure methods on instances, and make tables, pictures and pages of what was measured."""
 
 import argparse
-from importlib import import_module
+import shlex
+import sys
+from fnmatch import fnmatch
 from pathlib import Path
 
-from benchmarks.records import read_lines, routing_table, write_table
+from benchmarks.case import Case
+from benchmarks.registry import PROBLEMS, SETS, problem
+from benchmarks.runner import run
 
-BENCHMARKS = {
-    "routing": "benchmarks.routing",
-    "forecast": "benchmarks.forecast",
-    "edge": "benchmarks.edge",
-}
+MEASURED = Path("measured")
+"""Where lines go unless told otherwise."""
 
 
-def main() -> None:
-    """Run a benchmark, or report one."""
-    parser = argparse.ArgumentParser(prog="benchmarks", description=__doc__)
-    commands = parser.add_subparsers(dest="command", required=True)
-    run = commands.add_parser("run", help="measure; options after the name are the benchmark's")
-    run.add_argument("name", choices=BENCHMARKS)
-    run.add_argument("options", nargs=argparse.REMAINDER)
-    report = commands.add_parser("report", help="make a table of what was measured")
-    report.add_argument("lines", type=Path, help="JSON lines of the routing benchmark")
-    report.add_argument("--out", type=Path, required=True, help="a CSV file")
-    chosen = parser.parse_args()
-    if chosen.command == "run":
-        import_module(BENCHMARKS[chosen.name]).main(chosen.options)
-    else:
-        write_table(routing_table(read_lines(chosen.lines)), chosen.out)
+def main(words: list[str] | None = None) -> None:
+    """Run a benchmark, or report what was measured."""
+    chosen = _parser().parse_args(words)
+    chosen.command(chosen)
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="python -m benchmarks", description=__doc__)
+    commands = parser.add_subparsers(required=True)
+    running = commands.add_parser("run", help="measure; a line of JSON for each case")
+    add = running.add_argument
+    add("problem", nargs="?", default="all", choices=(*PROBLEMS, "all"))
+    add("--set", default="small", choices=SETS, help="of instances (default: %(default)s)")
+    add("--instance", nargs="+", default=["*"], metavar="PATTERN", help="only these of the set")
+    add("--method", nargs="+", metavar="NAME", help="only these; or module:function")
+    add("--time-limit", type=float, help="of each case [s]; each set has its own")
+    add("--seed", type=int, nargs="+", default=[0])
+    add("--jobs", type=int, default=1, help="cases at a time on this machine")
+    add("--scheduler", default="", metavar="ADDRESS", help="of a dask cluster to run on instead")
+    add("--resume", action="store_true", help="go on where an earlier run ended")
+    add("--out", type=Path, default=MEASURED, help="folder of lines (default: %(default)s)")
+    running.set_defaults(command=_run)
+    return parser
+
+
+def _run(chosen: argparse.Namespace) -> None:
+    command = shlex.join(["python", "-m", "benchmarks", *sys.argv[1:]])
+    for name in PROBLEMS if chosen.problem == "all" else [chosen.problem]:
+        lines = chosen.out / f"{name}.jsonl"
+        if lines.exists() and not chosen.resume:
+            sys.exit(f"{lines} exists: add --resume to go on, or name another folder by --out.")
+        cases = list(_cases(name, chosen))
+        found = run(cases, lines, jobs=chosen.jobs, scheduler=chosen.scheduler, command=command)
+        failed = sum(record["status"] == "failed" for record in found)
+        print(f"{lines}: {len(found)} cases, {failed} failed")
+
+
+def _cases(name: str, chosen: argparse.Namespace) -> list[Case]:
+    kind = problem(name)
+    limit = chosen.time_limit or kind.time_limits[chosen.set]
+    methods = chosen.method or kind.methods(chosen.set)
+    return [
+        Case(name, instance, method, limit, seed)
+        for instance in kind.instances(chosen.set)
+        if any(fnmatch(instance, pattern) for pattern in chosen.instance)
+        for method in methods
+        for seed in chosen.seed
+    ]
 
 
 if __name__ == "__main__":

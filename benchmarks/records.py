@@ -1,76 +1,78 @@
-"""Records of benchmarks: a JSON line for each answer, and tables made of them."""
+"""Lines of JSON, one for each case: what was measured, by what, and where."""
 
-import csv
 import json
 import os
 import subprocess
-from collections.abc import Iterable
+from functools import cache
+from importlib.metadata import PackageNotFoundError, version
+from math import isfinite
 from pathlib import Path
 from typing import Any
 
-from rich.console import Console
-
+from benchmarks.case import Record
 from windopt.versions import versions
 
 ROOT = Path(__file__).parents[1]
+RIVALS = "pyvrp", "ortools", "floris"
+"""Packages that windopt itself does not use."""
 
 
-def machine() -> dict[str, Any]:
-    """Return what a figure depends on beside the code: commit, versions and processors."""
-    head = subprocess.run(
-        ["git", "describe", "--always", "--dirty"],
-        cwd=ROOT,
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    commit = head.stdout.strip() or "unknown"
-    return {"commit": commit, "processors": os.cpu_count(), "versions": versions()}
+def origin(command: str) -> Record:
+    """Return what a line says of the code behind it: commit, versions and command."""
+    git = ["git", "describe", "--always", "--dirty"]
+    head = subprocess.run(git, cwd=ROOT, capture_output=True, text=True, check=False)
+    found = versions()
+    for package in RIVALS:
+        try:
+            found[package] = version(package)
+        except PackageNotFoundError:
+            found[package] = "not installed"
+    return {"commit": head.stdout.strip() or "unknown", "versions": found, "command": command}
 
 
-def write_lines(records: Iterable[dict[str, Any]], path: Path) -> None:
-    """Write records as they come, a line each, and show them."""
-    console = Console(highlight=False)
+@cache
+def machine() -> Record:
+    """Return what a line says of the machine: its processors and memory."""
+    memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+    return {"processor": _processor(), "processors": os.cpu_count(), "memory_gb": memory // 10**9}
+
+
+def _processor() -> str:
+    table = Path("/proc/cpuinfo")
+    for line in table.read_text(encoding="utf-8").splitlines() if table.exists() else ():
+        name, _, value = line.partition(":")
+        if name.strip() == "model name":
+            return value.strip()
+    return "unknown"
+
+
+def appended(record: Record, path: Path) -> None:
+    """Add a line to a file, on the disk when this returns."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    with path.open("w", encoding="utf-8") as lines:
-        for record in records:
-            lines.write(json.dumps(record) + "\n")
-            lines.flush()
-            shown = {name: value for name, value in record.items() if name != "versions"}
-            console.print("  ".join(f"{name} {_short(value)}" for name, value in shown.items()))
-    console.print(f"Written to {path}.")
+    with path.open("a", encoding="utf-8") as lines:
+        lines.write(json.dumps(_finite(record), ensure_ascii=False) + "\n")
+        lines.flush()
+        os.fsync(lines.fileno())
 
 
-def read_lines(path: Path) -> list[dict[str, Any]]:
-    """Read back what :func:`write_lines` wrote."""
-    return [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines()]
+def read_lines(path: Path) -> list[Record]:
+    """Read the lines of a file, none if there is none; a last one that was cut off is removed."""
+    if not path.exists():
+        return []
+    text = path.read_bytes()
+    whole = text.rfind(b"\n") + 1
+    if whole < len(text):
+        with path.open("r+b") as lines:
+            lines.truncate(whole)
+    return [json.loads(line) for line in text[:whole].decode().splitlines()]
 
 
-def routing_table(records: Iterable[dict[str, Any]]) -> list[list[str]]:
-    """Return a row for each instance and a column for each method: time, proof and runtime."""
-    cells: dict[tuple[str, str], dict[str, str]] = {}
-    methods: list[str] = []
-    for record in records:
-        if record["method"] not in methods:
-            methods.append(record["method"])
-        instance = f"{record['farm']}, {record['turbines']}", str(record["stations"])
-        cells.setdefault(instance, {})[record["method"]] = _cell(record)
-    rows = [[*instance, *(row.get(m, "") for m in methods)] for instance, row in cells.items()]
-    return [["farm, turbines", "K", *methods], *rows]
-
-
-def write_table(rows: Iterable[list[str]], path: Path) -> None:
-    """Write a table that the documentation includes."""
-    with path.open("w", newline="", encoding="utf-8") as file:
-        csv.writer(file, lineterminator="\n").writerows(rows)
-
-
-def _cell(record: dict[str, Any]) -> str:
-    if record["status"] == "failed":
-        return "failed"
-    proof = "optimal" if record["status"] == "optimal" else f"gap {record['gap']:.1%}"
-    return f"{record['objective']:.1f} s, {proof}, {record['runtime']:.1f} s"
-
-
-def _short(value: Any) -> str:
-    return f"{value:.6g}" if isinstance(value, float) else str(value)
+def _finite(value: Any) -> Any:
+    """Return a value as JSON can hold it: what is not a finite number becomes ``null``."""
+    if isinstance(value, float):
+        return value if isfinite(value) else None
+    if isinstance(value, dict):
+        return {name: _finite(member) for name, member in value.items()}
+    if isinstance(value, list | tuple):
+        return [_finite(member) for member in value]
+    return value

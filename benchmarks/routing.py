@@ -1,78 +1,151 @@
-"""Routing methods on real farms: ``python -m benchmarks run routing [FARM:STATIONS ...]``.
+"""Inspection routing: real farms in many winds, by exact methods, heuristics and rivals."""
 
-Every method plans every instance under one time limit and one wind; stations are placed by
-k-means, so that a name and a number say which instance it is. Each answer has passed
-:mod:`windopt.checking`; a failure becomes a row of its own.
-"""
-
-import argparse
 from collections.abc import Iterator, Sequence
-from pathlib import Path
-from typing import Any
+from importlib import import_module
+from itertools import product
 
-from benchmarks.records import machine, write_lines
-from windopt.domain.farm import Farm
-from windopt.domain.wind import Wind
+from benchmarks.case import Case, Problem, Record
+from benchmarks.inspections import Inspection
+from benchmarks.processor import processor_time
+from windopt.comparison import as_method
+from windopt.domain.plan import InspectionPlan
+from windopt.errors import InvalidInput
+from windopt.io.optiwindnet import optiwindnet_sizes
 from windopt.planning.inspection import plan_inspection
-from windopt.planning.routing_methods import METHODS
-from windopt.planning.stations import stations_by_k_means
+from windopt.planning.routing_methods import METHODS, RoutingMethod
+from windopt.result import Moment, Result
 
-INSTANCES = ("Albatros:1", "Albatros:2", "Ormonde:1", "Kriegers Flak B:4", "Hornsea 2:10")
+RIVALS = {
+    "pyvrp": "benchmarks.pyvrp_flights:pyvrp_flights",
+    "or-tools": "benchmarks.ortools_flights:ortools_flights",
+}
+"""Methods of other projects, by where they are called."""
 
+DEFAULT_METHODS = {
+    "small": (*METHODS, *RIVALS),
+    "medium": ("exact", "pyvrp", "algorithm-2"),
+    "full": ("exact",),
+    "growth": ("exact", "time-flow", "pyvrp", "algorithm-2"),
+}
+TIME_LIMITS = {"small": 10.0, "medium": 60.0, "full": 300.0, "growth": 60.0}
 
-def measured(
-    instances: Sequence[str],
-    methods: Sequence[str],
-    *,
-    wind: Wind,
-    dwell: float,
-    time_limit: float,
-    seed: int,
-) -> Iterator[dict[str, Any]]:
-    """Yield a record for each method on each instance, ``FARM:STATIONS``."""
-    for instance in instances:
-        name, _, count = instance.rpartition(":")
-        farm = Farm.load(name)
-        fleet = stations_by_k_means(farm, int(count), dwell=dwell, seed=seed)
-        for method in methods:
-            case = {"farm": name, "turbines": len(farm), "stations": len(fleet), "method": method}
-            try:
-                result = plan_inspection(
-                    farm, fleet, wind, method=method, dwell=dwell, time_limit=time_limit, seed=seed
-                )
-            except Exception as failure:
-                yield case | {"status": "failed", "reason": str(failure)}
-                continue
-            yield case | {
-                "status": str(result.status),
-                "objective": result.objective,
-                "bound": result.bound,
-                "gap": result.gap,
-                "runtime": result.runtime,
-                "reason": result.reason,
-                "unreachable": len(result.found().unreachable),
-            }
+DIRECTIONS = range(0, 360, 45)
+WINDS: dict[str, tuple[tuple[int, int], ...]] = {
+    "small": ((0, 0), (10, 90), (14, 225)),
+    "medium": ((10, 90), (5, 225)),
+    "full": ((0, 0), *product((5, 10, 14), DIRECTIONS)),
+    "growth": ((10, 90),),
+}
+"""Speed [m/s] and direction [deg] of each wind; the paper's is 10 m/s from the east."""
+DWELLS = {"small": (0,), "medium": (0, 60), "full": (0, 60, 240), "growth": (0,)}
+"""Seconds at each turbine."""
+LARGEST_SMALL = 51
+"""Turbines of the largest farm in the small set."""
+GRIDS = (*range(20, 201, 20), 210, 300)
+COMPILING = 200.0
+"""Time in which the exact method's loops are compiled on any machine [s]."""
+TRACED = 25
+"""Moments of a trace that are kept, the last ones."""
 
 
-def main(arguments: Sequence[str] | None = None) -> None:
-    """Run the benchmark and write a line for each answer."""
-    parser = argparse.ArgumentParser(prog="benchmarks run routing", description=__doc__)
-    parser.add_argument("instances", nargs="*", metavar="FARM:STATIONS", default=INSTANCES)
-    parser.add_argument("--methods", nargs="+", choices=METHODS, default=list(METHODS))
-    parser.add_argument("--wind-speed", type=float, default=10.0, help="m/s")
-    parser.add_argument("--wind-direction", type=float, default=90.0, help="deg, from")
-    parser.add_argument("--dwell", type=float, default=0.0, help="s")
-    parser.add_argument("--time-limit", type=float, default=60.0, help="s")
-    parser.add_argument("--seed", type=int, default=0)
-    parser.add_argument("--out", type=Path, default=Path("routing.jsonl"), help="JSON lines")
-    chosen = parser.parse_args(arguments)
-    records = measured(
-        chosen.instances or INSTANCES,
-        chosen.methods,
-        wind=Wind.from_met(chosen.wind_speed, chosen.wind_direction),
-        dwell=chosen.dwell,
-        time_limit=chosen.time_limit,
-        seed=chosen.seed,
+def instances(chosen: str) -> Sequence[str]:
+    """Return the names of a set's instances, small farms first."""
+    return [inspection.name for inspection in _instances(chosen)]
+
+
+def _instances(chosen: str) -> Iterator[Inspection]:
+    sizes = optiwindnet_sizes()
+    farms = sorted(sizes, key=lambda handle: (sizes[handle], handle))
+    if chosen == "small":
+        farms = [handle for handle in farms if sizes[handle] <= LARGEST_SMALL]
+    if chosen == "growth":
+        farms = [f"grid{n}" for n in GRIDS]
+    for handle, (speed, direction), dwell in product(farms, WINDS[chosen], DWELLS[chosen]):
+        yield Inspection(handle, speed, direction, dwell)
+
+
+def method(name: str) -> RoutingMethod:
+    """Return a method of windopt, a rival, or what ``module:function`` calls.
+
+    Raises
+    ------
+    InvalidInput
+        If there is no such method.
+    """
+    if name in METHODS:
+        return METHODS[name]
+    module, _, function = RIVALS.get(name, name).partition(":")
+    try:
+        return as_method(getattr(import_module(module), function))
+    except (ImportError, AttributeError, ValueError) as missing:
+        known = ", ".join((*METHODS, *RIVALS))
+        raise InvalidInput("method", f"to be one of {known}, or module:function", missing) from None
+
+
+def measure(case: Case) -> Record:
+    """Plan an instance's flights and have them checked."""
+    instance, planned_by = Inspection.named(case.instance), method(case.method)
+    facts, began = instance.facts, processor_time()
+    result = plan_inspection(
+        instance.farm,
+        instance.fleet,
+        instance.wind,
+        method=planned_by,
+        dwell=float(instance.dwell),
+        time_limit=case.time_limit,
+        seed=case.seed,
     )
-    setting = {name: value for name, value in vars(chosen).items() if isinstance(value, float)}
-    write_lines((record | setting | machine() for record in records), chosen.out)
+    return facts | outcome(result) | {"cpu": round(processor_time() - began, 3)}
+
+
+def outcome(result: Result[InspectionPlan]) -> Record:
+    """Return what a line says of an answer; times in seconds."""
+    effort = result.effort
+    return {
+        "status": str(result.status),
+        "objective": round(result.objective, 6),
+        "bound": round(result.bound, 6),
+        "gap": round(result.gap, 9),
+        "runtime": round(result.runtime, 3),
+        "bound_source": result.bound_source,
+        "reason": result.reason,
+        "lp_bound": round(effort.lp_bound, 6),
+        "cut_bound": round(effort.cut_bound, 6),
+        "rounds": effort.rounds,
+        "rows": effort.rows,
+        "nodes": effort.nodes,
+        "trace": [_rounded(moment) for moment in result.trace[-TRACED:]],
+        **_flights(result.solution),
+    }
+
+
+def _rounded(moment: Moment) -> tuple[float, float, float]:
+    return round(moment.time, 3), round(moment.objective, 2), round(moment.bound, 2)
+
+
+def _flights(plan: InspectionPlan | None) -> Record:
+    """Return the flights by numbers, stations and turbines each from 1, and who is left out."""
+    if plan is None:
+        return {"unreachable": 0, "flights": []}
+    station = {name: i for i, name in enumerate(plan.fleet.names, 1)}
+    turbine = {name: i for i, name in enumerate(plan.farm.names, 1)}
+    flights = [
+        [station[flight.station], [turbine[name] for name in flight.turbines]]
+        for flight in plan.flights
+    ]
+    return {"unreachable": len(plan.unreachable), "flights": flights}
+
+
+def warm_up(name: str) -> None:
+    """Plan a small farm by a method; the exact one is compiled when it first meets such a farm."""
+    limit = COMPILING if name == "exact" else 1.0
+    measure(Case("routing", "grid25-w10-090-d000", name, limit))
+
+
+PROBLEM = Problem(
+    instances=instances,
+    methods=DEFAULT_METHODS.__getitem__,
+    time_limits=TIME_LIMITS,
+    measure=measure,
+    warm_up=warm_up,
+)

@@ -62,8 +62,23 @@ def test_a_method_gets_a_gap_if_it_takes_one():
         seen.append((gap, time_limit, seed))
         return algorithm_2(instance, time_limit=time_limit, seed=seed)
 
-    compare({"mine": method}, [INSTANCE], gap=0.05, time_limit=7.0, seed=3)
-    assert seen == [(0.05, 7.0, 3)]
+    compare({"mine": method}, [INSTANCE], gap=0.05, time_limit=7.0, seeds=[3, 4])
+    assert seen == [(0.05, 7.0, 3), (0.05, 7.0, 4)]
+
+
+def test_an_answer_tells_how_it_came_about():
+    (row,) = compare({"program": time_flow}, [INSTANCE]).rows
+    times, objectives, bounds = zip(*row.result.trace, strict=True)
+    assert list(times) == sorted(times)
+    assert (objectives[-1], bounds[-1]) == (row.result.objective, row.result.bound)
+
+
+def test_the_table_goes_to_pandas():
+    pytest.importorskip("pandas")
+    frame = compare({"program": time_flow, "broken": breaks}, {"square": INSTANCE}).frame()
+    assert list(frame.method) == ["program", "broken"]
+    assert list(frame.status) == ["optimal", "no_solution"]
+    assert {"LP bound", "after cuts", "rounds", "rows added", "nodes"} <= set(frame.columns)
 
 
 @pytest.mark.parametrize(

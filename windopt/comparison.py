@@ -5,15 +5,21 @@ right for a farm and a wind is what :mod:`windopt.checking` asks of a plan.
 """
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import wraps
 from inspect import signature
 from math import inf, isclose
 from time import perf_counter
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from windopt.domain.routing import Route, RoutingInstance
+from windopt.errors import MissingExtra
 from windopt.result import Result, Status
 from windopt.solving import solve
+from windopt.trace import Progress, Recorder
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
 
 Routes = tuple[Route, ...]
 Formulation = Callable[..., Any]
@@ -29,33 +35,89 @@ class Row:
     method, instance
         Their names.
     result
-        Its routes, with status, objective [s], bound [s] and runtime [s].
+        Its routes, with status, objective [s], bound [s], runtime [s] and what it took.
     faults
         What is wrong with the routes, a sentence each, or the exception in place of routes.
+    seed
+        What random choices began with.
     """
 
     method: str
     instance: str
     result: Result[Routes]
     faults: tuple[str, ...]
+    seed: int = 0
+
+    @property
+    def cells(self) -> dict[str, Any]:
+        """The row of the table by column; times in seconds."""
+        found, effort = self.result, self.result.effort
+        return {
+            "instance": self.instance,
+            "method": self.method,
+            "seed": self.seed,
+            "status": str(found.status),
+            "objective": found.objective,
+            "bound": found.bound,
+            "gap": found.gap,
+            "LP bound": effort.lp_bound,
+            "after cuts": effort.cut_bound,
+            "rounds": effort.rounds,
+            "rows added": effort.rows,
+            "nodes": effort.nodes,
+            "runtime": found.runtime,
+            "faults": len(self.faults),
+        }
+
+
+FORMATS = {
+    "instance": "16",
+    "method": "16",
+    "seed": "4",
+    "status": "11",
+    "objective": "10.2f",
+    "bound": "10.2f",
+    "gap": "8.2%",
+    "LP bound": "10.2f",
+    "after cuts": "10.2f",
+    "rounds": "6",
+    "rows added": "10",
+    "nodes": "6",
+    "runtime": "7.2f",
+    "faults": "6",
+}
+"""How :class:`Comparison` prints each column."""
 
 
 @dataclass(frozen=True)
 class Comparison:
-    """A table of methods by instances; ``str`` prints it."""
+    """A table of methods by instances; ``str`` prints it, :meth:`frame` hands it to pandas."""
 
     rows: tuple[Row, ...]
 
     def __str__(self) -> str:
-        head = f"{'instance':16} {'method':16} {'status':16} {'objective':>12} {'bound':>12}"
-        lines = [f"{head} {'gap':>8} {'runtime':>9} faults"]
-        for row in self.rows:
-            found = row.result
-            lines.append(
-                f"{row.instance:16} {row.method:16} {found.status:16} {found.objective:12.2f} "
-                f"{found.bound:12.2f} {found.gap:8.2%} {found.runtime:8.2f}s {len(row.faults)}"
-            )
-        return "\n".join(lines)
+        head = "  ".join(
+            f"{name:>{form.split('.')[0].rstrip('%')}}" for name, form in FORMATS.items()
+        )
+        return "\n".join([head, *(_line(row.cells) for row in self.rows)])
+
+    def frame(self) -> "DataFrame":
+        """Return the table as a pandas ``DataFrame``, a row for each answer.
+
+        Raises
+        ------
+        MissingExtra
+            If pandas is not installed.
+        """
+        try:
+            from pandas import DataFrame
+        except ModuleNotFoundError:
+            raise MissingExtra("A table in pandas", "bench") from None
+        return DataFrame([row.cells for row in self.rows], columns=list(FORMATS))
+
+
+def _line(cells: Mapping[str, Any]) -> str:
+    return "  ".join(f"{cells[name]:>{form}}" for name, form in FORMATS.items())
 
 
 def compare(
@@ -64,7 +126,7 @@ def compare(
     *,
     time_limit: float = 60.0,
     gap: float = 0.0,
-    seed: int = 0,
+    seeds: Sequence[int] = (0,),
 ) -> Comparison:
     """Run every method on every instance under one time limit, programs built within it.
 
@@ -75,23 +137,26 @@ def compare(
     methods
         By name: either a formulation ``f(t, t_max, allowed=...)`` that returns a program with
         ``routes(x)``, or a method ``f(instance, time_limit=..., seed=...)``, whose first parameter
-        is called so; a method with a parameter ``gap`` is given that too.
+        is called so; a method with a parameter ``gap`` or ``progress`` is given that too.
     instances
         By name, or in order.
-    time_limit, gap, seed
-        Of each run: wall-clock limit [s], relative gap to stop at [-], seed.
+    time_limit, gap
+        Of each run: wall-clock limit [s], relative gap to stop at [-].
+    seeds
+        Each method runs on each instance once with each.
     """
     named = (
         instances
         if isinstance(instances, Mapping)
         else {str(number): instance for number, instance in enumerate(instances)}
     )
-    options = {"time_limit": time_limit, "gap": gap, "seed": seed}
+    limits = {"time_limit": time_limit, "gap": gap}
     return Comparison(
         tuple(
-            _row(name, method, title, instance, options)
+            _row(name, method, title, instance, {**limits, "seed": seed})
             for title, instance in named.items()
             for name, method in methods.items()
+            for seed in seeds
         )
     )
 
@@ -103,33 +168,67 @@ def _row(
     instance: RoutingInstance,
     options: Mapping[str, Any],
 ) -> Row:
+    recorder = Recorder()
     began = perf_counter()
     try:
-        result = _run(method, instance, options).timed(perf_counter() - began)
-        return Row(name, title, result, tuple(faults(instance, result)))
+        result = as_method(method)(instance, **options, progress=recorder)
+        trace = recorder.until(result.objective, result.bound)
+        result = replace(result, runtime=perf_counter() - began, trace=trace)
+        return Row(name, title, result, tuple(faults(instance, result)), options["seed"])
     except Exception as error:  # whatever it is, the rows of the other methods stand
         fault = f"{type(error).__name__}: {error}"
         runtime = perf_counter() - began
         nothing = Result[Routes](Status.NO_SOLUTION, None, inf, -inf, runtime, reason=fault)
-        return Row(name, title, nothing, (fault,))
+        return Row(name, title, nothing, (fault,), options["seed"])
 
 
-def _run(
-    method: Formulation | Method, instance: RoutingInstance, options: Mapping[str, Any]
-) -> Result[Routes]:
+def as_method(method: Formulation | Method) -> Method:
+    """Return a formulation or a method as one that takes every option.
+
+    Parameters
+    ----------
+    method
+        As :func:`compare` takes it; a method is not given the options it has no parameter for.
+
+    Returns
+    -------
+    A method ``f(instance, gap=..., time_limit=..., seed=..., progress=...)``, as those of
+    :data:`windopt.planning.routing_methods.METHODS`.
+    """
     parameters = signature(method).parameters
-    if next(iter(parameters), None) == "instance":
-        taken = {k: value for k, value in options.items() if k != "gap" or k in parameters}
+    if next(iter(parameters), None) != "instance":
+        return _method_of(method)
+    optional = {"gap", "progress"} - set(parameters)
+
+    @wraps(method)
+    def run(instance: RoutingInstance, **options: Any) -> Result[Routes]:
+        taken = {name: value for name, value in options.items() if name not in optional}
         found: Result[Routes] = method(instance, **taken)
         return found
-    deadline = perf_counter() + options["time_limit"]
-    program: Any = method(instance.t, instance.t_max, allowed=instance.allowed)
-    left = max(0.0, deadline - perf_counter())
-    result = solve(program, **{**options, "time_limit": left})
-    if result.solution is None:
-        return result
-    routes = tuple(Route(d, tuple(turbines)) for d, turbines in program.routes(result.solution))
-    return result.carrying(routes)
+
+    return run
+
+
+def _method_of(formulation: Formulation) -> Method:
+    @wraps(formulation)
+    def run(
+        instance: RoutingInstance,
+        *,
+        gap: float = 0.0,
+        time_limit: float = 60.0,
+        seed: int = 0,
+        progress: Progress | None = None,
+    ) -> Result[Routes]:
+        deadline = perf_counter() + time_limit
+        program = formulation(instance.t, instance.t_max, allowed=instance.allowed)
+        left = max(0.0, deadline - perf_counter())
+        found = solve(program, time_limit=left, gap=gap, seed=seed, progress=progress)
+        if found.solution is None:
+            return found
+        flights = program.routes(found.solution)
+        return found.carrying(tuple(Route(d, tuple(turbines)) for d, turbines in flights))
+
+    return run
 
 
 def faults(instance: RoutingInstance, result: Result[Routes]) -> list[str]:

@@ -2,8 +2,8 @@
 
 from dataclasses import dataclass, replace
 from enum import StrEnum
-from math import inf, isfinite
-from typing import Generic, TypeVar
+from math import inf, isfinite, nan
+from typing import Generic, NamedTuple, TypeVar
 
 Solution = TypeVar("Solution")
 Other = TypeVar("Other")
@@ -35,6 +35,37 @@ _SENTENCES = {
 }
 
 
+class Moment(NamedTuple):
+    """What was known at a time [s] since the start: the best objective and the best bound."""
+
+    time: float
+    objective: float
+    bound: float
+
+
+@dataclass(frozen=True)
+class Effort:
+    """What a proof by relaxations took, as far as the method tells.
+
+    Parameters
+    ----------
+    lp_bound
+        Value of the linear relaxation as it was stated.
+    cut_bound
+        Its value once rows that tighten it were added, before any branching.
+    rounds, rows
+        How often rows were added, and how many.
+    nodes
+        Nodes of the search tree.
+    """
+
+    lp_bound: float = nan
+    cut_bound: float = nan
+    rounds: int = 0
+    rows: int = 0
+    nodes: int = 0
+
+
 @dataclass(frozen=True)
 class Result(Generic[Solution]):
     """Outcome of one method on one problem.
@@ -55,6 +86,10 @@ class Result(Generic[Solution]):
         Why there is no solution, or what else the status does not say.
     asked_gap
         The gap at which the method was asked to stop [-]; OPTIMAL is a proof to within it.
+    trace
+        Objective and bound whenever one of them improved, in order of time.
+    effort
+        What the proof took.
     """
 
     status: Status
@@ -65,6 +100,8 @@ class Result(Generic[Solution]):
     bound_source: str = ""
     reason: str = ""
     asked_gap: float = 0.0
+    trace: tuple[Moment, ...] = ()
+    effort: Effort = Effort()
 
     @property
     def gap(self) -> float:
@@ -97,6 +134,8 @@ class Result(Generic[Solution]):
             self.bound_source,
             self.reason,
             self.asked_gap,
+            self.trace,
+            self.effort,
         )
 
     def timed(self, runtime: float) -> "Result[Solution]":

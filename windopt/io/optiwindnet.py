@@ -66,6 +66,11 @@ def optiwindnet_farm(name: str, also_known: Iterable[str] = ()) -> Farm:
     return _farm(names[known[key]])
 
 
+def optiwindnet_sizes() -> dict[str, int]:
+    """Return how many turbines each of OptiWindNet's farms has, by handle."""
+    return {graph.graph["handle"]: graph.graph["T"] for graph in _repository()}
+
+
 def _farm(graph: Any) -> Farm:
     """Translate OptiWindNet's graph: turbines first in ``VertexC``, substations last."""
     facts = graph.graph

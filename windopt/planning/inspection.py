@@ -1,6 +1,7 @@
 """Inspection flights for a farm: domain objects in, a checked plan out."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from itertools import pairwise
 from time import perf_counter
 
@@ -20,8 +21,9 @@ from windopt.planning.reach import (
     routing_instance,
     unreachable_turbines,
 )
-from windopt.planning.routing_methods import METHODS, Progress, RoutingMethod
+from windopt.planning.routing_methods import METHODS, RoutingMethod
 from windopt.result import Result, Status
+from windopt.trace import Progress, Recorder
 
 DEFAULT_METHOD = "algorithm-2"
 
@@ -31,7 +33,7 @@ def plan_inspection(
     fleet: Fleet,
     wind: Wind,
     *,
-    method: str = DEFAULT_METHOD,
+    method: str | RoutingMethod = DEFAULT_METHOD,
     dwell: float | Sequence[float] = 0.0,
     rule: SpeedRule | str = SpeedRule.EXACT,
     gap: float = 0.0,
@@ -46,7 +48,8 @@ def plan_inspection(
     farm, fleet, wind
         What to inspect, from where, and the steady wind to fly in.
     method
-        One of :data:`windopt.planning.routing_methods.METHODS`.
+        One of :data:`windopt.planning.routing_methods.METHODS`, or a function of its own with
+        their signature.
     dwell
         Time spent at each turbine [s]: one for all, or one each in the farm's order.
     rule
@@ -73,7 +76,7 @@ def plan_inspection(
     FailedCheck
         If the independent checker finds a fault in the plan.
     """
-    start = perf_counter()
+    start, recorder = perf_counter(), Recorder(progress)
     require_not_negative("time_limit", time_limit)
     require_not_negative("gap", gap)
     solve = _chosen(method)
@@ -85,7 +88,7 @@ def plan_inspection(
     if reached:
         instance = restricted(everything, reached)
         left = max(0.0, time_limit - (perf_counter() - start))
-        found = solve(instance, gap=gap, time_limit=left, seed=seed, progress=progress)
+        found = solve(instance, gap=gap, time_limit=left, seed=seed, progress=recorder)
     else:
         found = Result(Status.OPTIMAL, (), 0.0, 0.0, 0.0, reason="No turbine is within reach.")
     result: Result[InspectionPlan] = found.carrying(None)
@@ -94,10 +97,13 @@ def plan_inspection(
         plan = InspectionPlan(farm, fleet, wind, dwells, flights, unreachable, rule)
         result = found.carrying(plan)
         _assert_sound(result)
-    return result.timed(perf_counter() - start)
+    trace = recorder.until(result.objective, result.bound)
+    return replace(result, runtime=perf_counter() - start, trace=trace)
 
 
-def _chosen(method: str) -> RoutingMethod:
+def _chosen(method: str | RoutingMethod) -> RoutingMethod:
+    if not isinstance(method, str):
+        return method
     if method not in METHODS:
         raise InvalidInput("method", f"to be one of {', '.join(METHODS)}", repr(method))
     return METHODS[method]

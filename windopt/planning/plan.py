@@ -16,9 +16,9 @@ from windopt.forecasting.forecaster import Forecaster
 from windopt.forecasting.lstm import EdgeForecaster
 from windopt.forecasting.persistence import Persistence
 from windopt.planning.inspection import DEFAULT_METHOD, plan_inspection
-from windopt.planning.routing_methods import Progress
 from windopt.planning.yaw import AIR_DENSITY, plan_yaw
 from windopt.result import Result, Status
+from windopt.trace import Progress
 
 FORECASTERS: dict[str, Callable[[], Forecaster]] = {
     "lstm": EdgeForecaster,

@@ -17,8 +17,8 @@ from windopt.heuristics.baseline import baseline
 from windopt.heuristics.splitting import split_by_rule
 from windopt.result import Result, Status
 from windopt.solving import integer
+from windopt.trace import Progress
 
-Progress = Callable[[float, float], None]
 Routes = tuple[Route, ...]
 
 HEAD_START = 0.2

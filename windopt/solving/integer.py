@@ -14,7 +14,7 @@ meets on its way are checked too, so that a limit or Ctrl-C still leaves a plan.
 HiGHS: a program that has one is never called infeasible.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from itertools import takewhile
 from math import inf
@@ -30,12 +30,11 @@ from windopt.errors import InvalidInput
 from windopt.result import Result, Status
 from windopt.solving.rows import rows
 from windopt.solving.watched import News, run
+from windopt.trace import Progress, Recorder
 
 HIGHS = highspy.HighsModelStatus
 TOLERANCE = 1e-5  # Ten times HiGHS's own, which it applies to a scaled and presolved program.
 RELAXATION_SHARE = 0.5  # Part of the time limit after which a plan matters more than the bound.
-
-Progress = Callable[[float, float], None]
 
 
 class IntegerProgram(Protocol):
@@ -98,14 +97,17 @@ def solve(
     model.setOptionValue("random_seed", seed)
     model.setOptionValue("threads", threads)
 
-    search = _Search(program, time_limit, progress)
+    recorder = Recorder(progress)
+    search = _Search(program, time_limit, recorder)
     try:
         search.begin(start)
         search.relax()
         search.branch()
     except KeyboardInterrupt:
         search.interrupted = True
-    return replace(search.result(), asked_gap=gap)
+    result = search.result()
+    trace = recorder.until(result.objective, result.bound)
+    return replace(result, asked_gap=gap, trace=trace)
 
 
 @dataclass

@@ -1,0 +1,18 @@
+"""The problems that can be benchmarked. One entry adds a problem."""
+
+from importlib import import_module
+
+from benchmarks.case import Problem
+
+PROBLEMS = {
+    "routing": "benchmarks.routing",
+}
+"""Module of each problem, whose ``PROBLEM`` describes it."""
+
+SETS = "small", "medium", "full", "growth"
+
+
+def problem(name: str) -> Problem:
+    """Return a problem by name, imported when it is asked for."""
+    found: Problem = import_module(PROBLEMS[name]).PROBLEM
+    return found
