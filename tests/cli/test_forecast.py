@@ -82,6 +82,63 @@ def test_a_series_too_short_is_refused(windopt, tmp_path, rows, command):
     assert "Traceback" not in out + err
 
 
+def swinging(path, rows, minutes, speed=8.0):
+    """Write a wind that swings by 2 m/s and 30 degrees every two hours."""
+    time = np.datetime64("2020-01-01T00:00") + np.arange(rows) * np.timedelta64(minutes, "m")
+    phase = 2 * np.pi * np.arange(rows) * minutes / 120
+    speeds, directions = speed + speed / 4 * np.sin(phase), 350 + 30 * np.sin(phase)
+    lines = (f"{t},{s:.3f},{d:.2f}\n" for t, s, d in zip(time, speeds, directions, strict=True))
+    path.write_text("time,speed,direction\n" + "".join(lines))
+    return path
+
+
+@pytest.mark.parametrize(("minutes", "step"), [(1, 5), (2, 10), (5, 5)])
+def test_rows_that_come_oftener_are_averaged(windopt, tmp_path, minutes, step):
+    wind = swinging(tmp_path / "often.csv", 3000, minutes)
+    code, out, err = windopt("forecast", "evaluate", "shipped", wind, "--json")
+    assert code == 0, err
+    table = json.loads(out)
+    assert table["step_minutes"] == step
+    assert any("Means over" in note for note in table["notes"]) == (minutes != step)
+
+
+@pytest.mark.parametrize("minutes", [3, 15, 60, 720])
+@pytest.mark.parametrize("command", ["evaluate", "predict"])
+def test_a_step_without_a_model_is_refused_with_what_to_do(windopt, tmp_path, minutes, command):
+    wind = swinging(tmp_path / "seldom.csv", 200, minutes)
+    code, _, err = windopt("forecast", command, "shipped", wind)
+    assert code == 2
+    assert "5 or 10 minutes; train a model" in err
+
+
+def test_a_model_of_hours_is_trained_on_several_series_and_scored(windopt, tmp_path):
+    pytest.importorskip("torch")
+    files = [swinging(tmp_path / f"{k}.csv", 600, 30, speed=6.0 + k) for k in range(2)]
+    size = "--units", "4", "--epochs", "1", "--history", "360", "--horizon", "60"
+    code, out, err = windopt("forecast", "train", *files, *size, "--out", "own.npz")
+    assert code == 0, err
+    assert out.count("Score it") == 2
+    code, out, err = windopt("forecast", "evaluate", "own.npz", files[0])
+    assert code == 0, err
+    assert "in 90 %" in out
+
+
+@pytest.mark.parametrize("speed", ["0.0", "0.3"])
+def test_a_calm_is_scored_without_complaint(windopt, tmp_path, speed):
+    calm = series(tmp_path / "calm.csv", 600, speed=speed)
+    assert windopt("forecast", "evaluate", "shipped", calm)[0] == 0
+    code, out, _ = windopt("forecast", "predict", "shipped", calm, "--json")
+    assert code == 0
+    assert json.loads(out)["steps"][0]["wind_speed"] < 1.0
+
+
+def test_a_stuck_vane_is_told_with_the_forecast(windopt, tmp_path):
+    stuck = series(tmp_path / "stuck.csv", 600)
+    code, _, err = windopt("forecast", "predict", "shipped", stuck)
+    assert code == 0
+    assert "look faulty: a direction that rests for hours" in err
+
+
 def test_a_series_of_nothing_is_refused(windopt, tmp_path):
     empty = series(tmp_path / "empty.csv", 500, speed="nan", direction="nan")
     assert windopt("forecast", "evaluate", "shipped", empty)[0] == 2
@@ -97,6 +154,7 @@ def test_a_vane_that_is_stuck_for_months_is_reported(windopt, tmp_path):
     path.write_text("time,speed,direction\n" + "".join(rows))
     code, out, err = windopt("forecast", "evaluate", "shipped", path)
     assert code == 2
+    assert "rows masked: a direction that rests for hours" in err
     assert "Traceback" not in out + err
 
 

@@ -7,7 +7,7 @@ from windopt.domain.wind import WindSeries
 from windopt.errors import InvalidInput
 from windopt.forecasting.autoregression import LinearAutoregression
 from windopt.forecasting.conformal_persistence import ConformalPersistence
-from windopt.forecasting.evaluation import backtest
+from windopt.forecasting.evaluation import backtest, evaluate
 from windopt.forecasting.persistence import Persistence
 from windopt.forecasting.targets import wrapped
 
@@ -46,6 +46,13 @@ def test_a_linear_law_gives_all_the_skill_there_is():
 def test_windows_in_many_blocks_are_scored_as_in_one():
     long = backtest([], ramp(25_000, speed=1e-3)).scores[0]
     assert long.speed_mae == pytest.approx(1e-3 * np.arange(1, 9))
+
+
+def test_baselines_without_enough_to_learn_from_are_left_out_and_named():
+    table = evaluate([], ramp(180), test=1 / 3)
+    names = [score.name for score in table.scores]
+    assert names == ["persistence", "conformal persistence"]
+    assert any("Without linear autoregression" in note for note in table.notes)
 
 
 def test_forecasters_with_different_horizons_are_not_compared():

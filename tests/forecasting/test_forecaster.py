@@ -14,7 +14,8 @@ NAN = float("nan")
 def series(speed, step=5):
     speed = np.asarray(speed, dtype=float)
     time = np.datetime64("2020-01-01T00:00") + np.timedelta64(step, "m") * np.arange(len(speed))
-    return WindSeries(time, speed, np.full(len(speed), np.radians(350.0)))
+    direction = 350.0 + np.arange(len(speed))[::-1] % 2  # 350 in the last row
+    return WindSeries(time, speed, np.radians(direction))
 
 
 def test_persistence_repeats_the_last_wind():
@@ -46,6 +47,17 @@ def test_a_long_gap_is_refused_with_the_time_at_which_it_began():
     speed[20:25] = NAN
     with pytest.raises(InvalidInput, match="2020-01-01T01:40"):
         Persistence().predict(series(speed))
+
+
+def test_a_vane_that_is_stuck_makes_the_forecast_say_so():
+    stuck = series(np.arange(60.0))
+    stuck.theta_met[:30] = np.linspace(0, 1, 30)
+    stuck.theta_met[30:] = 1.0
+    (warning,) = Persistence().predict(stuck).notes
+    assert warning == (
+        "24 of the last 24 rows look faulty: a direction that rests for hours in wind."
+    )
+    assert Persistence().predict(stuck.part(slice(0, 30))).notes == ()
 
 
 def test_a_gap_before_the_history_does_not_matter():

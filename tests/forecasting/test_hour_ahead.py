@@ -1,13 +1,12 @@
-"""Hourly means, and forecasts of them asked about the next 40 minutes."""
+"""Forecasts of hourly means, asked about the next 40 minutes."""
 
 import numpy as np
 import pytest
 
 from windopt.domain.wind import WindSeries
-from windopt.errors import InvalidInput
 from windopt.forecasting.autoregression import LinearAutoregression
 from windopt.forecasting.evaluation import backtest
-from windopt.forecasting.hour_ahead import HOUR, HourAhead, hourly_means
+from windopt.forecasting.hour_ahead import HOUR, HourAhead
 from windopt.forecasting.persistence import Persistence
 
 HOURLY = Persistence(history=2 * HOUR, horizon=HOUR)
@@ -18,27 +17,6 @@ def ramp(n=600, step=5):
     time = np.datetime64("2020-01-01T00:00") + np.timedelta64(step, "m") * np.arange(n)
     minute = step * np.arange(n)
     return WindSeries(time, 0.01 * minute, np.radians((300 + 0.2 * minute) % 360))
-
-
-@pytest.mark.parametrize("step", [5, 10])
-def test_an_hour_has_the_mean_of_its_steps(step):
-    hourly = hourly_means(ramp(step=step))
-    rows = 60 // step
-    assert hourly.step == HOUR
-    assert hourly.speed[3] == pytest.approx(ramp(step=step).speed[3 * rows : 4 * rows].mean())
-
-
-def test_a_mean_direction_knows_no_seam():
-    wind = ramp(24)
-    wind.theta_met[:] = np.radians(np.where(np.arange(24) % 2, 350, 10))
-    wind.speed[:] = 5.0
-    assert np.cos(hourly_means(wind).theta_met) == pytest.approx([1.0, 1.0])
-
-
-def test_an_hour_with_a_gap_is_missing():
-    wind = ramp()
-    wind.speed[15] = np.nan
-    assert np.flatnonzero(~hourly_means(wind).valid).tolist() == [1]
 
 
 def test_persistence_of_the_hour_repeats_its_mean():
@@ -57,8 +35,3 @@ def test_a_forecaster_of_hours_is_fitted_to_hours():
     fitted = HourAhead(LinearAutoregression(2 * HOUR, HOUR)).fit(ramp(3000))
     forecast = fitted.predict(ramp(3000).part(slice(0, 600)))
     assert forecast.speed == pytest.approx(np.full(8, 0.01 * (5 * 600 + 27.5)), rel=0.01)
-
-
-def test_a_step_that_does_not_divide_an_hour_is_refused():
-    with pytest.raises(InvalidInput, match="hour"):
-        hourly_means(ramp(step=7))

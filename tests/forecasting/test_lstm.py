@@ -85,6 +85,27 @@ def test_the_model_is_chosen_by_the_step_of_the_series():
         assert chosen.fit(wind) is chosen
 
 
+@pytest.mark.parametrize(("minutes", "takes"), [(1, 5), (2, 10), (5, 5), (10, 10)])
+def test_rows_that_come_oftener_are_averaged(minutes, takes):
+    wind = gusty(np.timedelta64(minutes, "m"), 400)
+    forecaster = EdgeForecaster().fit(wind)
+    forecast = forecaster.predict(wind)
+    assert forecaster.model.step == np.timedelta64(takes, "m")
+    assert forecast.issued == wind.time[-1]
+    assert len(forecast) == 40 // takes
+    assert (forecaster.suited(wind) is wind) == (minutes == takes)
+    assert any("Means over" in note for note in forecast.notes) == (minutes != takes)
+
+
+def test_a_vane_that_was_stuck_before_averaging_is_mentioned():
+    wind = gusty(np.timedelta64(1, "m"), 400)
+    wind.theta_met[-150:] = 1.0
+    assert any(
+        "120 of the last 120 rows" in note
+        for note in EdgeForecaster().fit(wind).predict(wind).notes
+    )
+
+
 def test_a_step_without_a_model_is_refused():
     with pytest.raises(InvalidInput, match="5 or 10 minutes"):
         EdgeForecaster().fit(gusty(np.timedelta64(20, "m"), 100))

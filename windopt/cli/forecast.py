@@ -17,6 +17,7 @@ from windopt.cli.times import parsed
 from windopt.domain.wind import WindForecast, WindSeries
 from windopt.errors import InvalidInput, MissingExtra
 from windopt.forecasting.evaluation import evaluate as score
+from windopt.forecasting.faults import without_faults
 from windopt.forecasting.lstm import EdgeForecaster, WindForecaster
 from windopt.forecasting.report import report
 from windopt.forecasting.windows import chronological_split
@@ -32,6 +33,9 @@ TEST = 1 / 3
 SeriesFile = Annotated[
     Path, typer.Argument(metavar="SERIES", help="CSV with time, speed and direction.")
 ]
+SeriesFiles = Annotated[
+    list[Path], typer.Argument(metavar="SERIES...", help="As many CSV files, of one step.")
+]
 ModelFile = Annotated[
     str, typer.Argument(metavar="MODEL", help=f"A model's file, or {SHIPPED} for windopt's own.")
 ]
@@ -39,9 +43,10 @@ Bits = Annotated[int, typer.Option(help="Bits of a weight: 32, 16, 8, 4 or 2.")]
 OutputBits = Annotated[int | None, typer.Option(help="Bits of the output layer; as --bits.")]
 Units = Annotated[int, typer.Option(min=1, help="Hidden units.")]
 TargetName = Annotated[str, typer.Option(help="residual on persistence, or raw as in the paper.")]
+Minutes = Annotated[int, typer.Option(min=1, help="How far to look, a multiple of the step [min].")]
 Epochs = Annotated[int, typer.Option(min=1, help="Passes over the training windows at most.")]
 Holdout = Annotated[
-    float, typer.Option(min=0, max=0.9, help="Last fraction that trains nothing, for evaluate.")
+    float, typer.Option(min=0, max=0.9, help="Last fraction of each that evaluate tests on.")
 ]
 NewModel = Annotated[Path, typer.Option("--out", help="Where the trained model goes.")]
 Checkpoint = Annotated[
@@ -51,12 +56,14 @@ Checkpoint = Annotated[
 
 @app.command()
 def train(
-    series: SeriesFile,
+    series: SeriesFiles,
     model: NewModel,
     bits: Bits = 4,
     output_bits: OutputBits = None,
     units: Units = 100,
     target: TargetName = "residual",
+    history: Minutes = 120,
+    horizon: Minutes = 40,
     epochs: Epochs = 24,
     holdout: Holdout = TEST,
     checkpoint: Checkpoint = None,
@@ -66,21 +73,31 @@ def train(
     seed: opt.Seed = 0,
     force: opt.Force = False,
 ) -> None:
-    """Train an LSTM on a measured series; needs the extra train."""
+    """Train an LSTM on measured series; needs the extra train."""
     if model.exists() and not force:
         raise InvalidInput("--out", "to be a new file, or --force", model)
-    measured = WindSeries.read(
-        series, time=time_column, speed=speed_column, direction=direction_column
+    columns = {"time": time_column, "speed": speed_column, "direction": direction_column}
+    measured = [WindSeries.read(path, **columns) for path in series]
+    for one in measured:
+        note((*one.notes, *without_faults(one).notes[len(one.notes) :]))
+    early = [chronological_split(one, holdout)[0] if holdout else one for one in measured]
+    recipe = _recipe(
+        bits=bits,
+        output_bits=output_bits,
+        units=units,
+        target=target,
+        history=np.timedelta64(history, "m"),
+        horizon=np.timedelta64(horizon, "m"),
+        epochs=epochs,
     )
-    note(measured.notes)
-    early = chronological_split(measured, holdout)[0] if holdout else measured
-    recipe = _recipe(bits=bits, output_bits=output_bits, units=units, target=target, epochs=epochs)
-    with _epochs(f"Training {bits} bits on {series.name}", epochs) as update:
+    names = ", ".join(path.name for path in series)
+    with _epochs(f"Training {bits} bits on {names}", epochs) as update:
         forecaster = WindForecaster(recipe, seed=seed, progress=update, checkpoint=checkpoint)
         trained = forecaster.fit(early)
     trained.save(model)
     say(f"Written to {model}: {model.stat().st_size} bytes.")
-    say(f"Score it: windopt forecast evaluate {model} {series}")
+    for path in series:
+        say(f"Score it: windopt forecast evaluate {model} {path}")
 
 
 @app.command()
@@ -93,7 +110,7 @@ def predict(
     direction_column: opt.Column = "",
     json: opt.Json = False,
 ) -> None:
-    """Forecast the next 40 minutes after a time of a measured series."""
+    """Forecast what follows a time of a measured series: the next 40 minutes, if shipped."""
     measured = WindSeries.read(
         series, time=time_column, speed=speed_column, direction=direction_column
     )
@@ -120,7 +137,9 @@ def predict(
 def evaluate(
     model: ModelFile,
     series: SeriesFile,
-    test: Annotated[float, typer.Option(min=0.01, max=1, help="Last fraction to test on.")] = TEST,
+    test: Annotated[
+        float, typer.Option(min=0.01, max=0.99, help="Last fraction to test on.")
+    ] = TEST,
     time_column: opt.Column = "",
     speed_column: opt.Column = "",
     direction_column: opt.Column = "",
@@ -130,18 +149,20 @@ def evaluate(
     measured = WindSeries.read(
         series, time=time_column, speed=speed_column, direction=direction_column
     )
-    backtest = score([_model(model, measured)], measured, test=test)
+    forecaster = _model(model, measured)
+    backtest = score([forecaster], forecaster.suited(without_faults(measured)), test=test)
     found = report(backtest)
     if json:
         typer.echo(json_text.dumps(found, indent=2, allow_nan=False))
         return
     note(backtest.notes)
-    title = f"{found['series']}: {found['windows']} windows, every {found['step_minutes']:g} min"
-    table = Table("method", *(heading for heading, _ in COLUMNS), title=title)
-    for method in found["methods"]:
-        figures = (method[key] for _, key in COLUMNS)
-        table.add_row(method["name"], *("-" if f is None else f"{f:.3f}" for f in figures))
-    out.print(table)
+    say(f"{found['series']}: {found['windows']} windows, every {found['step_minutes']:g} min")
+    for what, unit, columns in TABLES:
+        table = Table(what, *(heading for heading, _ in columns), title=f"{what} ({unit})")
+        for method in found["methods"]:
+            figures = (method[key] for _, key in columns)
+            table.add_row(method["name"], *("-" if f is None else f"{f:.3f}" for f in figures))
+        out.print(table)
 
 
 def _band(step: dict[str, Any], quantiles: str, decimals: int) -> str:
@@ -152,15 +173,32 @@ def _band(step: dict[str, Any], quantiles: str, decimals: int) -> str:
     return f"{low:.{decimals}f} to {high:.{decimals}f}"
 
 
-COLUMNS = (
-    ("speed MAE\nm/s", "speed_mae"),
-    ("skill\n-", "speed_skill"),
-    ("direction\ndeg", "direction_mae"),
-    ("skill\n-", "direction_skill"),
-    ("pinball\nm/s", "speed_pinball"),
-    ("pinball\ndeg", "direction_pinball"),
-    ("90 %\ncovers", "coverage_90"),
-)
+TABLES = (
+    (
+        "speed",
+        "m/s, means over the horizon",
+        (
+            ("MAE", "speed_mae"),
+            ("RMSE", "speed_rmse"),
+            ("skill of MAE", "speed_skill"),
+            ("pinball", "speed_pinball"),
+            ("in 50 %", "coverage_50"),
+            ("in 90 %", "coverage_90"),
+        ),
+    ),
+    (
+        "direction",
+        "degrees on the circle",
+        (
+            ("MAE", "direction_mae"),
+            ("RMSE", "direction_rmse"),
+            ("skill of MAE", "direction_skill"),
+            ("pinball", "direction_pinball"),
+            ("in 50 %", "direction_coverage_50"),
+            ("in 90 %", "direction_coverage_90"),
+        ),
+    ),
+)  # what, its unit, and each column's heading and key; bands of 50 and 90 % hold the truth
 
 
 def _model(name: str, series: WindSeries) -> EdgeForecaster:
@@ -169,20 +207,14 @@ def _model(name: str, series: WindSeries) -> EdgeForecaster:
     return EdgeForecaster.load(name)
 
 
-def _recipe(*, bits: int, output_bits: int | None, units: int, target: str, epochs: int) -> Any:
+def _recipe(*, epochs: int, **chosen: Any) -> Any:
     """Return what to train; importing it needs torch."""
     try:
         from windopt.forecasting.training.fit import Recipe
         from windopt.forecasting.training.loop import Schedule
     except ModuleNotFoundError as missing:
         raise MissingExtra("Training", "train") from missing
-    return Recipe(
-        bits=bits,
-        output_bits=output_bits,
-        units=units,
-        target=target,
-        schedule=Schedule(epochs=epochs),
-    )
+    return Recipe(**chosen, schedule=Schedule(epochs=epochs))
 
 
 @contextmanager
@@ -203,11 +235,11 @@ def _epochs(task: str, epochs: int) -> Iterator["Callable[[Epoch], None]"]:
 def _record(forecast: WindForecast) -> dict[str, Any]:
     """Return a forecast as plain data: m/s, and degrees clockwise from north."""
     steps = []
-    for h, (time, wind) in enumerate(zip(forecast.time, forecast.winds, strict=True)):
+    for h, time in enumerate(forecast.time):
         step = {
             "time": str(time),
-            "wind_speed": wind.speed,
-            "wind_direction": degrees(wind.theta_met),
+            "wind_speed": float(forecast.speed[h]),
+            "wind_direction": degrees(forecast.theta_met[h]),
         }
         if forecast.quantiles is not None:
             turned = forecast.theta_met[h] + forecast.quantiles.turn[h]

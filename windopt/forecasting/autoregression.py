@@ -22,7 +22,7 @@ from scipy.linalg import cho_factor, cho_solve
 from windopt.domain.wind import Floats, WindForecast, WindSeries
 from windopt.errors import InvalidInput
 from windopt.forecasting.forecaster import issue
-from windopt.forecasting.windows import HISTORY, HORIZON, Traces, windows
+from windopt.forecasting.windows import HISTORY, HORIZON, Traces, why, windows
 
 
 @dataclass(frozen=True)
@@ -60,7 +60,8 @@ class LinearAutoregression:
         train = windows(series, history=self.history, horizon=self.horizon)
         least = 2 * (3 * train.history + 1)
         if len(train) < least:
-            raise InvalidInput("wind series", f"to hold {least} windows to fit", len(train))
+            found = f"{len(train)} {why(series)}".strip()
+            raise InvalidInput("wind series", f"to hold {least} windows to fit", found)
         XX = np.zeros((3 * train.history + 1, 3 * train.history + 1))
         XY = np.zeros((3 * train.history + 1, 3 * train.horizon))
         for block in train.blocks():

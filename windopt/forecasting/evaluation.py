@@ -1,7 +1,7 @@
 """Backtests: how wrong forecasters were on windows they have not seen, side by side."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -76,7 +76,8 @@ def evaluate(
     """Score trained forecasters on the last fraction ``test`` of a measured series.
 
     Faults of sensors are masked first. Beside the forecasters stand persistence, with bands of
-    constant width, and linear autoregression, both fitted to what comes before the test.
+    constant width, and linear autoregression, both fitted to what comes before the test; one that
+    finds too little there is left out, and the notes say so.
 
     Raises
     ------
@@ -89,11 +90,13 @@ def evaluate(
         if forecasters
         else (Persistence.history, Persistence.horizon)
     )
-    rivals: list[Forecaster] = [
-        LinearAutoregression(history, horizon).fit(before),
-        ConformalPersistence(history, horizon).fit(before),
-    ]
-    return backtest([*rivals, *forecasters], after)
+    rivals, notes = [], list(after.notes)
+    for rival in LinearAutoregression(history, horizon), ConformalPersistence(history, horizon):
+        try:
+            rivals.append(rival.fit(before))
+        except InvalidInput as too_little:
+            notes.append(f"Without {rival.name}. {too_little}")
+    return backtest([*rivals, *forecasters], replace(after, notes=tuple(notes)))
 
 
 def _score(forecaster: Forecaster, test: Windows) -> Score:

@@ -15,11 +15,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from windopt.domain.wind import Floats, WindSeries
+from windopt.forecasting.windows import minutes
 
 CALM = 1.0  # m/s; common starting threshold of cups and vanes, with a margin
 STUCK = np.timedelta64(2, "h")
 STUCK_IF_COARSE = np.timedelta64(24, "h")
-COARSE = 72  # or fewer different directions: steps of 5 degrees or more
+COARSE = 72  # or fewer directions that recur: steps of 5 degrees or more
 REPEATED = np.timedelta64(30, "m")
 SPEED_LIMIT = 75.0  # m/s; the strongest means on record at wind farm masts stay below
 SPIKE = 12.0  # m/s above both neighbours, and
@@ -53,14 +54,14 @@ class Faults:
         return self.stuck | self.repeated | self.spikes
 
     @property
-    def notes(self) -> tuple[str, ...]:
-        """A sentence about each kind of fault that was found."""
+    def kinds(self) -> tuple[tuple[str, Mask], ...]:
+        """Each kind of fault that was found, and its rows."""
         found = (
-            (self.stuck, "a direction that rests for hours in wind"),
-            (self.repeated, f"speed and direction that rest for {REPEATED} or longer"),
-            (self.spikes, "a spike of speed"),
+            ("a direction that rests for hours in wind", self.stuck),
+            (f"speed and direction that rest for {minutes(REPEATED)} or longer", self.repeated),
+            ("a spike of speed", self.spikes),
         )
-        return tuple(f"{mask.sum()} rows masked: {kind}." for mask, kind in found if mask.any())
+        return tuple((kind, mask) for kind, mask in found if mask.any())
 
 
 def find_faults(series: WindSeries) -> Faults:
@@ -68,8 +69,7 @@ def find_faults(series: WindSeries) -> Faults:
     blowing = np.nan_to_num(series.speed) > CALM
     rests = _same_as_before(series.theta_met)
     both = rests & _same_as_before(series.speed)
-    directions = len(np.unique(series.theta_met[series.valid]))
-    limit = STUCK_IF_COARSE if 1 < directions <= COARSE else STUCK
+    limit = STUCK_IF_COARSE if _coarse(series.theta_met[series.valid]) else STUCK
     stuck = _runs(rests, _rows(limit, series)) & blowing
     repeated = _runs(both, _rows(REPEATED, series)) & blowing
     return Faults(stuck, repeated & ~stuck, _spikes(series.speed))
@@ -84,8 +84,23 @@ def without_faults(series: WindSeries) -> WindSeries:
         series,
         speed=np.where(faults.any, np.nan, series.speed),
         theta_met=np.where(faults.any, np.nan, series.theta_met),
-        notes=(*series.notes, *faults.notes),
+        notes=(
+            *series.notes,
+            *(f"{mask.sum()} rows masked: {kind}." for kind, mask in faults.kinds),
+        ),
     )
+
+
+def suspected(series: WindSeries, rows: int) -> tuple[str, ...]:
+    """Return a warning for each kind of fault in the last ``rows`` rows of ``series``."""
+    counts = ((kind, mask[-rows:].sum()) for kind, mask in find_faults(series).kinds)
+    return tuple(f"{n} of the last {rows} rows look faulty: {kind}." for kind, n in counts if n)
+
+
+def _coarse(theta_met: Floats) -> bool:
+    """Whether directions come in few steps, to which they return again and again."""
+    directions, changes = len(np.unique(theta_met)), np.count_nonzero(np.diff(theta_met))
+    return 1 < directions <= min(COARSE, changes / 2)
 
 
 def _rows(duration: np.timedelta64, series: WindSeries) -> int:

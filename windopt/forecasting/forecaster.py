@@ -11,6 +11,7 @@ import numpy as np
 
 from windopt.domain.wind import WindForecast, WindSeries
 from windopt.errors import InvalidInput
+from windopt.forecasting.faults import suspected
 from windopt.forecasting.windows import Traces, steps_in
 
 FILL_LIMIT = np.timedelta64(20, "m")
@@ -44,6 +45,8 @@ class Forecaster(Protocol):
 def issue(forecaster: Forecaster, history: WindSeries) -> WindForecast:
     """Ask ``forecaster`` what follows the last row of ``history``.
 
+    Rows that look as if no sensor had measured them are used, and the forecast's notes say so.
+
     Raises
     ------
     InvalidInput
@@ -63,7 +66,7 @@ def issue(forecaster: Forecaster, history: WindSeries) -> WindForecast:
         speed=ahead.speed[0],
         theta_met=ahead.theta_met[0],
         method=forecaster.name,
-        notes=known.notes[len(history.notes) :],
+        notes=(*known.notes[len(history.notes) :], *suspected(history, L)),
         quantiles=ahead.quantiles and ahead.quantiles[0],
     )
 

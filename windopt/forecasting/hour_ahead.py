@@ -11,26 +11,12 @@ from typing import Self
 
 import numpy as np
 
-from windopt.domain.wind import Floats, WindForecast, WindSeries
+from windopt.domain.wind import WindForecast, WindSeries
+from windopt.forecasting.averaging import averaged, mean_of
 from windopt.forecasting.forecaster import Forecaster, issue
 from windopt.forecasting.windows import HORIZON, Traces, steps_in
 
 HOUR = np.timedelta64(1, "h")
-
-
-def hourly_means(series: WindSeries) -> WindSeries:
-    """Return means over whole hours: of the speed, and of the direction weighted by it.
-
-    An hour with a gap is missing. Time stamps mark where an hour begins, as the series' own do.
-    """
-    rows = steps_in(HOUR, series.step, "hour")
-    hours = len(series) // rows
-    cut = slice(0, hours * rows)
-    traces = Traces(
-        series.speed[cut].reshape(hours, rows), series.theta_met[cut].reshape(hours, rows)
-    )
-    speed, theta_met = _mean(traces)
-    return replace(series, time=series.time[cut][::rows], speed=speed, theta_met=theta_met)
 
 
 @dataclass(frozen=True)
@@ -60,7 +46,7 @@ class HourAhead:
 
     def fit(self, series: WindSeries) -> Self:
         """Return this forecaster, fitted to the hourly means of ``series``."""
-        return replace(self, hourly=self.hourly.fit(hourly_means(series)))
+        return replace(self, hourly=self.hourly.fit(averaged(series, HOUR)))
 
     def forecast(self, past: Traces, step: np.timedelta64) -> Traces:
         """Return the mean expected of the next hour at every step ahead."""
@@ -71,7 +57,7 @@ class HourAhead:
             past.speed[:, L - hours * rows :].reshape(B * hours, rows),
             past.theta_met[:, L - hours * rows :].reshape(B * hours, rows),
         )
-        speed, theta_met = (mean.reshape(B, hours) for mean in _mean(kept))
+        speed, theta_met = (mean.reshape(B, hours) for mean in mean_of(kept))
         ahead = self.hourly.forecast(Traces(speed, theta_met), HOUR)
         return Traces(
             np.repeat(ahead.speed[:, :1], H, axis=1), np.repeat(ahead.theta_met[:, :1], H, axis=1)
@@ -80,9 +66,3 @@ class HourAhead:
     def predict(self, history: WindSeries) -> WindForecast:
         """Return the forecast after the last row of ``history``."""
         return issue(self, history)
-
-
-def _mean(traces: Traces) -> tuple[Floats, Floats]:
-    """Mean speed, and direction of the mean velocity, of each trace."""
-    u, v = np.moveaxis(traces.velocity.mean(axis=1), -1, 0)
-    return traces.speed.mean(axis=1), np.arctan2(-u, -v) % (2 * np.pi)

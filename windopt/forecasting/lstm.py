@@ -1,7 +1,7 @@
 """The LSTM as a forecaster: one that learns, and one that runs a trained model without torch."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from functools import cached_property
 from importlib import resources
@@ -13,13 +13,15 @@ import numpy as np
 from windopt.domain.wind import WindForecast, WindSeries
 from windopt.errors import InvalidInput, MissingExtra
 from windopt.forecasting import model_file
+from windopt.forecasting.averaging import averaged
 from windopt.forecasting.evaluation import Backtest, backtest
+from windopt.forecasting.faults import suspected
 from windopt.forecasting.forecaster import issue
 from windopt.forecasting.integer_network import IntegerNetwork
 from windopt.forecasting.model import Model
 from windopt.forecasting.network import FloatNetwork, Network, QuantisedWeights, Weights
 from windopt.forecasting.sparse_network import SparseNetwork
-from windopt.forecasting.windows import HISTORY, HORIZON, Traces, steps_in
+from windopt.forecasting.windows import HISTORY, HORIZON, Traces, minutes, steps_in
 
 if TYPE_CHECKING:
     from windopt.forecasting.training.fit import Recipe
@@ -78,13 +80,16 @@ class EdgeForecaster:
         Raises
         ------
         InvalidInput
-            If there is none: the steps are 5 and 10 minutes.
+            If there is none: the models are for 5 and 10 minutes and for what divides these.
         """
-        name = SHIPPED.get(int(step / np.timedelta64(1, "m")))
-        if name is None:
-            raise InvalidInput("step", f"{' or '.join(map(str, SHIPPED))} minutes", step)
-        file = resources.files("windopt.forecasting") / "models" / name
-        return cls(model_file.loads(file.read_bytes(), name), Arithmetic(arithmetic))
+        fitting = [name for count, name in SHIPPED.items() if not np.timedelta64(count, "m") % step]
+        if not fitting:
+            expected = (
+                f"to divide {' or '.join(map(str, SHIPPED))} minutes; train a model for others"
+            )
+            raise InvalidInput("step", expected, minutes(step))
+        file = resources.files("windopt.forecasting") / "models" / fitting[0]
+        return cls(model_file.loads(file.read_bytes(), file.name), Arithmetic(arithmetic))
 
     @property
     def history(self) -> np.timedelta64:
@@ -121,16 +126,37 @@ class EdgeForecaster:
         """
         model = self._chosen()
         if step != model.step:
-            raise InvalidInput("step", f"{model.step}, which the model is for", step)
+            raise InvalidInput("step", f"{minutes(model.step)}, as the model's", minutes(step))
         return model.forecast(self.network, past)
 
+    def suited(self, series: WindSeries) -> WindSeries:
+        """Return ``series`` in the model's step: itself, or means where its rows come oftener.
+
+        Raises
+        ------
+        InvalidInput
+            If the model's step is not a multiple of the series'.
+        """
+        step = self._chosen().step
+        if step % series.step:
+            raise InvalidInput(
+                "step", f"to divide the model's, {minutes(step)}", minutes(series.step)
+            )
+        return averaged(series, step)
+
     def predict(self, history: WindSeries) -> WindForecast:
-        """Return the forecast after the last row of ``history``."""
-        return issue(self, history)
+        """Return the forecast after the last row of ``history``, whose step may be shorter."""
+        known = self.suited(history)
+        forecast = issue(self, known)
+        if known is history:
+            return forecast
+        warnings = suspected(history, steps_in(self.history, history.step, "history"))
+        notes = (*known.notes[len(history.notes) :], *warnings, *forecast.notes)
+        return replace(forecast, notes=notes)
 
     def backtest(self, series: WindSeries) -> Backtest:
         """Score the model on every window of ``series``, beside persistence."""
-        return backtest([self], series)
+        return backtest([self], self.suited(series))
 
     def save(self, path: str | Path) -> None:
         """Write the model's file, whole or not at all."""

@@ -79,9 +79,10 @@ def _as_in_the_paper(score: Score) -> dict[str, float | None]:
     line = score.mean("direction_on_line").mean() / (2 * np.pi)
     line_square = score.mean("direction_on_line_square").mean() / (2 * np.pi) ** 2
     circle = score.direction_mae.mean() / (2 * np.pi)
+    span = score.speed_range or float("nan")
     return {
-        "speed_mae": _number(score.speed_mae.mean() / score.speed_range),
-        "speed_rmse": _number(score.mean("speed_square").mean() ** 0.5 / score.speed_range),
+        "speed_mae": _number(score.speed_mae.mean() / span),
+        "speed_rmse": _number(score.mean("speed_square").mean() ** 0.5 / span),
         "direction_mae": _number(line),
         "direction_rmse": _number(line_square**0.5),
         "direction_mae_on_circle": _number(circle),

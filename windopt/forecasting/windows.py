@@ -30,8 +30,15 @@ def steps_in(duration: np.timedelta64, step: np.timedelta64, field: str) -> int:
     """
     whole, rest = divmod(duration, step)
     if whole < 1 or rest != np.timedelta64(0):
-        raise InvalidInput(field, f"to be a multiple of the series' step, {step}", duration)
+        expected = f"to be a multiple of the series' step, {minutes(step)}"
+        raise InvalidInput(field, expected, minutes(duration))
     return int(whole)
+
+
+def minutes(duration: np.timedelta64) -> str:
+    """Return ``duration`` in words."""
+    count = float(duration / np.timedelta64(1, "m"))
+    return f"{count:g} minute{'' if count == 1 else 's'}"
 
 
 @dataclass(frozen=True)
@@ -131,16 +138,16 @@ def windows(
     if len(series) < L + H:
         raise InvalidInput("wind series", f"of at least {L + H} rows", f"{len(series)} rows")
     if not series.valid.any():
-        raise InvalidInput("wind series", "to hold valid rows", f"none {_why(series)}".strip())
+        raise InvalidInput("wind series", "to hold valid rows", f"none {why(series)}".strip())
     start = np.flatnonzero(sliding_window_view(series.valid, L + H).all(axis=1))
     if not len(start):
-        found = f"{series.valid.sum()} with gaps between them {_why(series)}".strip()
+        found = f"{series.valid.sum()} with gaps between them {why(series)}".strip()
         raise InvalidInput("wind series", f"to hold {L + H} valid rows in sequence", found)
     return Windows(series, L, H, start)
 
 
-def _why(series: WindSeries) -> str:
-    """Return what the series' notes say, in brackets."""
+def why(series: WindSeries) -> str:
+    """Return what the series' notes say of its rows, in brackets."""
     return f"({' '.join(series.notes)})" if series.notes else ""
 
 
