@@ -9,12 +9,14 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from windopt.checking import Report, check
     from windopt.comparison import compare
+    from windopt.domain.certificate import Certificate
     from windopt.domain.farm import Farm
     from windopt.domain.fleet import Fleet, Station, Uav
     from windopt.domain.plan import InspectionPlan, Plan, YawPlan
     from windopt.domain.turbine import Turbine, TurbineType
     from windopt.domain.wind import Wind, WindForecast, WindSeries
     from windopt.errors import InvalidInput
+    from windopt.planning.certification import certify
     from windopt.planning.inspection import plan_inspection
     from windopt.planning.plan import plan
     from windopt.planning.yaw import plan_yaw
@@ -25,6 +27,7 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 
 _ROOMS = {
+    "Certificate": "windopt.domain.certificate",
     "Farm": "windopt.domain.farm",
     "Fleet": "windopt.domain.fleet",
     "InspectionPlan": "windopt.domain.plan",
@@ -41,6 +44,7 @@ _ROOMS = {
     "WindForecast": "windopt.domain.wind",
     "WindSeries": "windopt.domain.wind",
     "YawPlan": "windopt.domain.plan",
+    "certify": "windopt.planning.certification",
     "check": "windopt.checking",
     "compare": "windopt.comparison",
     "plan": "windopt.planning.plan",
@@ -51,6 +55,7 @@ _ROOMS = {
 }
 
 __all__ = [
+    "Certificate",
     "Farm",
     "Fleet",
     "InspectionPlan",
@@ -67,6 +72,7 @@ __all__ = [
     "WindForecast",
     "WindSeries",
     "YawPlan",
+    "certify",
     "check",
     "compare",
     "plan",

@@ -8,7 +8,9 @@ from typing import Any
 from windopt.checking.inspection import check_inspection
 from windopt.checking.report import Report
 from windopt.checking.yaw import check_yaw, most_power
+from windopt.domain.certificate import Certificate
 from windopt.domain.plan import InspectionPlan, Plan, YawPlan
+from windopt.errors import InvalidInput
 from windopt.result import Result, Status
 
 Checkable = Plan | InspectionPlan | YawPlan | Result[InspectionPlan] | Result[YawPlan]
@@ -17,7 +19,7 @@ TOLERANCE = 1e-6
 """Relative; the accuracy to which solvers keep their own constraints."""
 
 
-def check(plan: Checkable) -> Report:
+def check(plan: Checkable, certificate: Certificate | None = None) -> Report:
     """Recompute a plan and list every violation.
 
     Parameters
@@ -25,12 +27,33 @@ def check(plan: Checkable) -> Report:
     plan
         Flights, set-points, or both. Of a result the promises are checked too: that the
         objective is what the plan costs or yields, and that the bound does bound it.
+    certificate
+        A proof of the bound on the flights, to be verified too; see
+        :func:`windopt.planning.certification.certify`.
+
+    Raises
+    ------
+    InvalidInput
+        If a certificate comes with a plan of which no bound is claimed.
     """
+    if certificate is not None:
+        return check(plan) + _check_proof(plan, certificate).about("certificate")
     if isinstance(plan, Plan):
         return _check_steps(plan)
     if isinstance(plan, Result):
         return _check_result(plan)
     return check_inspection(plan) if isinstance(plan, InspectionPlan) else check_yaw(plan)
+
+
+def _check_proof(plan: Checkable, certificate: Certificate) -> Report:
+    from windopt.checking.certificate import check_certificate  # numba, only where there is one
+
+    result = plan.inspection if isinstance(plan, Plan) else plan
+    flights = result.solution if isinstance(result, Result) else None
+    if not (isinstance(result, Result) and isinstance(flights, InspectionPlan)):
+        got = type(flights or result).__name__
+        raise InvalidInput("certificate", "to come with flights and the bound on them", got)
+    return check_certificate(flights, result.bound, certificate)
 
 
 def _check_result(result: Result[Any]) -> Report:

@@ -162,8 +162,13 @@ class Relaxation:
         self.master.rebuild(self.master.columns, cuts)
         return True
 
-    def fix_arcs(self) -> Fixing | None:
+    def fix_arcs(self, ceiling: float | None = None) -> Fixing | None:
         """Drop the legs that no better plan flies.
+
+        Parameters
+        ----------
+        ceiling
+            What better plans keep below; by default that of the search.
 
         Returns
         -------
@@ -172,8 +177,7 @@ class Relaxation:
         clock, networks = self.search.clock, self.pricer.networks
         prices = self.master.cuts.prices(self.duals.pi, self.duals.penalty)
         value = self.duals.value(self.counts) + self.least * self.search.most_flights
-        gap = self.search.ceiling - value
-
+        gap = (self.search.ceiling if ceiling is None else ceiling) - value
         memory = self.pricer.neighbourhoods.memory
 
         def fix(network: Network, limit: float) -> tuple[Completions, Floats] | None:

@@ -153,7 +153,7 @@ def tighten(
     selection.add(pool.kept(inside))
     before = -np.inf
     for _ in range(ROUNDS):
-        duals, x, reduced = _price_out(selection, pool, inside, search.clock)
+        duals, x, reduced = price_out(selection, pool, inside, search.clock)
         value = duals.value(counts) + search.most_flights * min(0.0, reduced.min(initial=0.0))
         gap = target - value + MARGIN
         keep = reduced <= gap
@@ -181,10 +181,15 @@ def tighten(
     return Tightened(pool, reduced, triples, value, together, np.append(sent, sent.sum()))
 
 
-def _price_out(
+def price_out(
     selection: Selection, pool: Pool, inside: Bools, clock: Clock
 ) -> tuple[Duals, Floats, Floats]:
-    """Solve the linear program over the whole pool; ``inside`` is kept up to date.
+    """Solve the linear program over the whole pool.
+
+    Parameters
+    ----------
+    inside
+        Which flights are in the program; kept up to date.
 
     Returns
     -------

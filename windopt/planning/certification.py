@@ -1,0 +1,49 @@
+"""Certificates of inspection plans: domain objects in, a proof of the bound out."""
+
+from windopt.domain.certificate import Certificate
+from windopt.domain.plan import InspectionPlan
+from windopt.domain.routing import Route
+from windopt.planning.reach import restricted, routing_instance
+from windopt.result import Result
+
+
+def certify(
+    result: Result[InspectionPlan], *, time_limit: float = 300.0, memory: float = 4e9
+) -> Certificate:
+    """Prove the bound of a plan in numbers that :func:`windopt.check` verifies.
+
+    Parameters
+    ----------
+    result
+        Flights by any method, and the bound on their total time.
+    time_limit
+        Wall-clock limit [s].
+    memory
+        What the search for the proof may take [bytes].
+
+    Returns
+    -------
+    Certificate
+        Of a lower bound than claimed where time or memory ran out.
+
+    Raises
+    ------
+    ValueError
+        With the reason, if the result holds no plan.
+    """
+    from windopt.solving.certification import certify as prove  # compiled loops load slowly
+
+    plan = result.found()
+    visited = {name for flight in plan.flights for name in flight.turbines}
+    reached = [i for i, name in enumerate(plan.farm.names) if name in visited]
+    turbines = tuple(plan.farm.names[i] for i in reached)
+    routes = tuple(
+        Route(plan.fleet.names.index(flight.station), tuple(map(turbines.index, flight.turbines)))
+        for flight in plan.flights
+    )
+    everything = routing_instance(
+        plan.farm, plan.fleet, plan.wind, dwell=plan.dwell, rule=plan.rule
+    )
+    instance = restricted(everything, reached)
+    proof = prove(instance, routes, result.bound, time_limit=time_limit, memory=memory)
+    return Certificate(turbines, plan.fleet.names, proof)

@@ -1,0 +1,114 @@
+"""Certification: a proof that a bound holds, told so that others can verify it.
+
+The search proves its bound on the way to a plan, when it does not yet know how good plans can be.
+Told afterwards the proof is shorter: the flights that matter are those within the last gap, and one
+set of prices over all flights, without cuts, tells them from the rest.
+"""
+
+from dataclasses import replace
+from math import inf
+
+import numpy as np
+
+from windopt.domain.certificate import Proof
+from windopt.domain.routing import Route, RoutingInstance
+from windopt.solving.exact.cases import CLOSED, MARGIN, Left, prove
+from windopt.solving.exact.clock import Clock, OutOfTime
+from windopt.solving.exact.enumeration import enumerate_flights
+from windopt.solving.exact.pool import Pool, reduced_costs
+from windopt.solving.exact.pricing import LabelsOverflow
+from windopt.solving.exact.relaxation import Fixing, Relaxation
+from windopt.solving.exact.search import Search
+
+EFFORT = 2_000_000
+"""Half flights of one side of one station to hold at most."""
+SHARES = (1.0, 0.5, 0.25, 0.1)
+"""Parts of the gap to list the flights of, where those of the whole are too many."""
+
+
+def certify(
+    instance: RoutingInstance,
+    routes: tuple[Route, ...],
+    bound: float,
+    *,
+    time_limit: float = 300.0,
+    memory: float = 4e9,
+) -> Proof:
+    """Prove that no plan takes less than ``bound``.
+
+    Parameters
+    ----------
+    routes
+        A plan, the better the fewer flights matter.
+    bound
+        What to prove [s].
+    time_limit
+        Wall-clock limit [s].
+    memory
+        What labels and flights may take [bytes].
+
+    Returns
+    -------
+    The proof, of a lower bound where time or memory ran out.
+    """
+    with Clock(time_limit) as clock:
+        search = Search(instance, clock)
+        search.offer([(route.station, route.turbines) for route in routes])
+        n = len(instance.turbines)
+        proof = Proof(0.0, np.zeros(n), ((),) * n)
+        try:
+            relaxation = _relaxation(search, memory)
+            proof = _over_all_flights(relaxation, bound)
+            return _over_a_list(proof, relaxation, bound)
+        except (OutOfTime, LabelsOverflow, KeyboardInterrupt):
+            return proof
+
+
+def _relaxation(search: Search, memory: float) -> Relaxation:
+    """Solve the relaxation over all flights."""
+    anywhere = np.tile([0.0, inf], (len(search.networks) + 1, 1))
+    relaxation = Relaxation(search, memory, anywhere)
+    relaxation.solve()
+    while relaxation.grow_neighbourhoods():
+        relaxation.solve()
+    return relaxation
+
+
+def _over_all_flights(relaxation: Relaxation, bound: float) -> Proof:
+    """Return what the relaxation proves; prices are lowered until no reduced cost is negative."""
+    prices = (relaxation.duals.pi + relaxation.least) * relaxation.search.unit
+    sets = relaxation.pricer.neighbourhoods.sets
+    neighbours = tuple(tuple(sorted(near)) for near in sets)
+    return Proof(max(0.0, min(bound, float(prices.sum()))), prices, neighbours)
+
+
+def _over_a_list(proof: Proof, relaxation: Relaxation, bound: float) -> Proof:
+    """List the flights within the gap, or a part of it, and prove as much over these."""
+    search, value = relaxation.search, float(proof.prices.sum())
+    gap = bound - value
+    if gap <= CLOSED * bound:
+        return replace(proof, bound=bound)
+    fixing = relaxation.fix_arcs(ceiling=(bound + 2 * MARGIN * bound) / search.unit)
+    if fixing is None:
+        return proof
+    for share in SHARES:
+        target = (value + share * gap) / search.unit
+        pool = _listed(relaxation, fixing, target * (1 + MARGIN) - value / search.unit)
+        if pool is not None:
+            case = prove(_all_left(pool, relaxation), target, search)
+            return replace(proof, bound=target * search.unit, case=case)
+    return proof
+
+
+def _listed(relaxation: Relaxation, fixing: Fixing, gap: float) -> Pool | None:
+    """Return the flights of a reduced cost up to ``gap``."""
+    networks = fixing.useful(relaxation.pricer.networks, gap)
+    clock = relaxation.search.clock
+    return enumerate_flights(networks, fixing, gap, EFFORT, relaxation.memory, clock)
+
+
+def _all_left(pool: Pool, relaxation: Relaxation) -> Left:
+    search, none = relaxation.search, np.zeros((0, 3), np.int64)
+    slices = pool.slices(search.n, search.clock)
+    reduced = reduced_costs(pool, slices, relaxation.duals, none, search.clock)
+    return Left(pool, reduced, none, relaxation.counts)
