@@ -6,12 +6,12 @@ set of prices over all flights, without cuts, tells them from the rest.
 """
 
 from dataclasses import replace
-from math import inf
 
 import numpy as np
 
 from windopt.domain.certificate import Proof
 from windopt.domain.routing import Route, RoutingInstance
+from windopt.errors import InvalidInput
 from windopt.solving.exact.cases import CLOSED, MARGIN, Left, prove
 from windopt.solving.exact.clock import Clock, OutOfTime
 from windopt.solving.exact.enumeration import enumerate_flights
@@ -50,7 +50,14 @@ def certify(
     Returns
     -------
     The proof, of a lower bound where time or memory ran out.
+
+    Raises
+    ------
+    InvalidInput
+        If the plan may leave turbines out for a prize: such proofs cannot be told yet.
     """
+    if instance.prize is not None:
+        raise InvalidInput("prize", "none where a bound is certified", instance.prize)
     with Clock(time_limit) as clock:
         search = Search(instance, clock)
         search.offer([(route.station, route.turbines) for route in routes])
@@ -66,8 +73,7 @@ def certify(
 
 def _relaxation(search: Search, memory: float) -> Relaxation:
     """Solve the relaxation over all flights."""
-    anywhere = np.tile([0.0, inf], (len(search.networks) + 1, 1))
-    relaxation = Relaxation(search, memory, anywhere)
+    relaxation = Relaxation(search, memory, search.counts)
     relaxation.solve()
     while relaxation.grow_neighbourhoods():
         relaxation.solve()

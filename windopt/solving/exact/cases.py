@@ -125,7 +125,7 @@ def _rounds(
     inside = np.zeros(len(left.pool), bool)
     inside[np.argsort(left.reduced, kind="stable")[:FIRST]] = True
     pool, counts = left.pool, left.counts
-    selection = Selection(search.n, counts, left.triples, target)
+    selection = Selection(search.n, counts, left.triples, np.full(search.n, target))
     selection.add(pool.kept(inside))
     rounds: list[Round] = []
     recorded, before = np.inf, -np.inf
