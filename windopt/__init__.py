@@ -13,12 +13,15 @@ if TYPE_CHECKING:
     from windopt.domain.farm import Farm
     from windopt.domain.fleet import Fleet, Station, Uav
     from windopt.domain.plan import InspectionPlan, Plan, YawPlan
+    from windopt.domain.power_curve import PowerCurve
+    from windopt.domain.steering import Steering
     from windopt.domain.turbine import Turbine, TurbineType
     from windopt.domain.wind import Wind, WindForecast, WindSeries
     from windopt.errors import InvalidInput
     from windopt.planning.certification import certify
     from windopt.planning.inspection import plan_inspection
     from windopt.planning.plan import plan
+    from windopt.planning.turbine_yaw import plan_turbine_yaw
     from windopt.planning.yaw import plan_yaw
     from windopt.result import Result, Status
     from windopt.solving import solve
@@ -33,10 +36,12 @@ _ROOMS = {
     "InspectionPlan": "windopt.domain.plan",
     "InvalidInput": "windopt.errors",
     "Plan": "windopt.domain.plan",
+    "PowerCurve": "windopt.domain.power_curve",
     "Report": "windopt.checking",
     "Result": "windopt.result",
     "Station": "windopt.domain.fleet",
     "Status": "windopt.result",
+    "Steering": "windopt.domain.steering",
     "Turbine": "windopt.domain.turbine",
     "TurbineType": "windopt.domain.turbine",
     "Uav": "windopt.domain.fleet",
@@ -49,6 +54,7 @@ _ROOMS = {
     "compare": "windopt.comparison",
     "plan": "windopt.planning.plan",
     "plan_inspection": "windopt.planning.inspection",
+    "plan_turbine_yaw": "windopt.planning.turbine_yaw",
     "plan_yaw": "windopt.planning.yaw",
     "show_versions": "windopt.versions",
     "solve": "windopt.solving",
@@ -61,10 +67,12 @@ __all__ = [
     "InspectionPlan",
     "InvalidInput",
     "Plan",
+    "PowerCurve",
     "Report",
     "Result",
     "Station",
     "Status",
+    "Steering",
     "Turbine",
     "TurbineType",
     "Uav",
@@ -77,6 +85,7 @@ __all__ = [
     "compare",
     "plan",
     "plan_inspection",
+    "plan_turbine_yaw",
     "plan_yaw",
     "show_versions",
     "solve",

@@ -86,6 +86,33 @@ def test_yaw_prints_a_record_that_check_passes(windopt, folder):
     assert windopt("check", "record.json")[0] == 0
 
 
+def test_a_farm_is_steered_under_what_the_options_say(windopt, folder):
+    options = ("--turbine", "nrel_5MW", "--turbulence", "0.1", "--bounds", "-20", "15")
+    code, out, err = windopt(
+        "yaw", "farm.csv", *WIND, *options, "--direction-std", "3", "--farm-cap", "12", "--json"
+    )
+    assert code == 0, err
+    record = json.loads(out)
+    steering = record["steering"]
+    assert steering["bounds"] == pytest.approx([-20.0, 15.0])
+    assert (steering["turbulence"], steering["farm_cap"]) == (0.1, 12e6)
+    assert steering["direction_std"] == pytest.approx(3.0)
+    assert all(-20.0 <= turbine["yaw"] <= 15.0 for turbine in record["turbines"])
+    (folder / "record.json").write_text(out, encoding="utf-8")
+    assert windopt("check", "record.json")[0] == 0
+
+
+def test_without_wakes_turbines_get_pitch_and_tip_speed_ratio(windopt, folder):
+    code, out, _ = windopt("yaw", "farm.csv", *WIND, "--wakes", "none", "--json")
+    assert code == 0
+    record = json.loads(out)
+    assert record["steering"] is None
+    assert record["status"] == "optimal"
+    assert record["turbines"][0]["tip_speed_ratio"] == pytest.approx(6.91, abs=0.01)
+    (folder / "record.json").write_text(out, encoding="utf-8")
+    assert windopt("check", "record.json")[0] == 0
+
+
 def test_plan_writes_a_folder_that_check_passes(windopt, folder):
     command = "plan", "farm.csv", "--wind", "wind.csv", "--time", "2020-01-01T12:00"
     code, out, _ = windopt(*command, "--stations", "stations.csv", "--out", "out")
@@ -208,6 +235,10 @@ BAD = {
     "nothing.csv": ("plan", "farm.csv", "--wind", "nothing.csv"),
     "nothing.json": ("check", "nothing.json"),
     "power_coefficient": ("yaw", "farm.csv", *WIND, "--power-coefficient", "magic"),
+    "bounds": ("yaw", "farm.csv", *WIND, "--bounds", "20", "-20"),
+    "turbulence": ("yaw", "farm.csv", *WIND, "--turbulence", "0"),
+    "turbine": ("yaw", "farm.csv", *WIND, "--turbine", "V164"),
+    "--wakes": ("yaw", "farm.csv", *WIND, "--wakes", "none", "--farm-cap", "5"),
     "air_density": ("yaw", "farm.csv", *WIND, "--air-density", "-1"),
 }
 

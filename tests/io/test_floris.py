@@ -6,7 +6,7 @@ import pytest
 
 from windopt.domain.turbine import SG_8_167
 from windopt.errors import InvalidInput
-from windopt.io.floris import LIBRARY, farm_from_floris, is_floris
+from windopt.io.floris import farm_from_floris, is_floris, library_turbine
 
 OWN = {
     "turbine_type": "own",
@@ -28,7 +28,7 @@ def test_one_type_serves_all_turbines():
     farm = farm_from_floris(document(["nrel_5MW"]), "gch.yaml")
     assert (farm.name, farm.source, farm.crs) == ("GCH", "gch.yaml", None)
     assert farm.names == ("T01", "T02")
-    assert [turbine.type for turbine in farm.turbines] == [LIBRARY["nrel_5MW"]] * 2
+    assert [turbine.type for turbine in farm.turbines] == [library_turbine("nrel_5MW")] * 2
 
 
 def test_each_turbine_may_have_its_own():

@@ -25,6 +25,8 @@ from windopt.domain.plan import (
     Unreachable,
     YawPlan,
 )
+from windopt.domain.power_curve import PowerCurve
+from windopt.domain.steering import Steering
 from windopt.domain.turbine import SG_8_167, Turbine
 from windopt.domain.wind import Wind, WindForecast
 from windopt.errors import InvalidInput
@@ -73,6 +75,15 @@ YAW = YawPlan(
     air_density=1.065,
 )
 FLOWN = Result(Status.FEASIBLE, INSPECTION, 60 + 1 / 3, 50.0, 1.25, "relaxation", "Limit reached.")
+CURVE = PowerCurve((3.0, 1 / 0.07, 25.0), (0.0, 2e6, 2e6), (1.1, 0.5, 1 / 30))
+STEERED = replace(
+    YAW,
+    farm=FARM.with_turbine_type(replace(SG_8_167, curve=CURVE)),
+    set_points=tuple(replace(p, pitch=None, tip_speed_ratio=None) for p in YAW.set_points),
+    steering=Steering(
+        0.1, -0.5, 0.25, 0.0, ((Wind(8.0, 1 / 3), 0.25), (Wind(8.0, -1.0), 0.75)), 5e6, 0.1
+    ),
+)
 TURNED = Result(Status.LOCALLY_OPTIMAL, YAW, YAW.power, inf, 0.5)
 TIMES = np.array(["2011-04-13T22:05", "2011-04-13T22:10"], dtype="datetime64[s]")
 FORECAST = WindForecast(
@@ -100,7 +111,7 @@ def near(plan):
 @pytest.mark.parametrize("kind", RECORDS)
 def test_records_keep_their_schema(kind):
     VALIDATOR.validate(RECORDS[kind])
-    assert (RECORDS[kind]["schema"], RECORDS[kind]["version"]) == ("windopt/plan", 1)
+    assert (RECORDS[kind]["schema"], RECORDS[kind]["version"]) == ("windopt/plan", 2)
     assert RECORDS[kind]["kind"] == kind
 
 
@@ -116,6 +127,23 @@ def test_set_points_are_read_back_but_for_the_last_digits_of_angles():
     assert near(back(TURNED)) == near(TURNED)
     pitch = [point.pitch for point in back(TURNED).solution.set_points]
     assert pitch == pytest.approx([0.01] * 3, abs=1e-11)
+
+
+def test_what_a_farm_is_steered_under_is_read_back():
+    steered = TURNED.carrying(STEERED)
+    VALIDATOR.validate(record_of(steered))
+    found = back(steered).solution
+    assert found.farm == STEERED.farm
+    said, expected = found.steering, STEERED.steering
+    assert (said.lower, said.upper) == pytest.approx((expected.lower, expected.upper), abs=1e-12)
+    assert replace(said, lower=-0.5, upper=0.25) == expected
+    assert {point.pitch for point in found.set_points} == {None}
+
+
+def test_yaw_is_the_misalignment_that_floris_takes():
+    point = record_of(TURNED)["turbines"][0]
+    assert point["yaw"] == point["misalignment"] == pytest.approx(-1.1)
+    assert point["nacelle"] == pytest.approx(271.1)
 
 
 def test_a_whole_plan_is_read_back():
@@ -194,9 +222,9 @@ def test_a_plan_with_a_value_that_is_no_number_is_not_written(tmp_path):
     ("kind", "path", "value", "complaint"),
     [
         ("yaw", "schema", "other", "schema to be 'windopt/plan', got 'other'"),
-        ("yaw", "version", 2, "version to be 1, got 2"),
+        ("yaw", "version", 1, "version to be 2, got 1"),
         ("yaw", "kind", "dance", "kind to be inspection, yaw or plan"),
-        ("yaw", "turbines.0.yaw", None, r"turbines\[0\].yaw to be a number, got None"),
+        ("yaw", "turbines.0.nacelle", None, r"turbines\[0\].nacelle to be a number, got None"),
         ("yaw", "turbines.2.power", "1", r"turbines\[2\].power to be a number, got '1'"),
         ("yaw", "objective", ..., "objective to be given"),
         ("inspection", "objective", None, "objective to be a number, got None"),

@@ -105,9 +105,48 @@ def test_a_curve_tells_the_rated_power(performance, rated_power):
     assert farm.turbines[0].type.rated_power == pytest.approx(rated_power, rel=1e-4)
 
 
+CT = {"Ct_values": [0.8, 0.8, 0.1], "Ct_wind_speeds": [4, 10, 25]}
+POWERS = {"power_values": [0, 2e6, 2e6], "power_wind_speeds": [3, 12, 24]}
+
+
+def test_power_and_thrust_become_a_curve_at_the_speeds_of_both():
+    performance = {"power_curve": POWERS, "Ct_curve": CT}
+    farm = farm_from_windio(changed(["turbines", "performance"], performance), "")
+    curve = farm.turbines[0].type.curve
+    assert curve.wind_speeds == (3, 4, 10, 12, 24)
+    assert curve.power([7.5, 24.5]) == pytest.approx([1e6, 0.0])
+    assert curve.thrust([7.0, 17.5]) == pytest.approx([0.8, 0.45])
+    assert not any("C_p model" in note for note in farm.notes)
+
+
+def test_a_power_coefficient_over_the_wind_becomes_a_curve_up_to_rated_power():
+    C_p = {"Cp_values": [0.4, 0.4], "Cp_wind_speeds": [4, 25]}
+    performance = {"rated_power": 1.5e6, "Cp_curve": C_p, "Ct_curve": CT}
+    farm = farm_from_windio(changed(["turbines", "performance"], performance), "")
+    curve = farm.turbines[0].type.curve
+    assert curve.power(10.0) == pytest.approx(0.5 * 1.225 * pi * 40**2 * 0.4 * 10**3, rel=1e-3)
+    assert curve.power(20.0) == pytest.approx(1.5e6)
+
+
+def test_curves_without_thrust_are_not_used_and_noted():
+    farm = farm_from_windio(changed(["turbines", "performance"], {"power_curve": POWERS}), "")
+    assert farm.turbines[0].type.curve is None
+    assert any("no thrust coefficients" in note for note in farm.notes)
+
+
 @pytest.mark.parametrize(
     ("path", "value", "complaint"),
     [
+        (
+            ["turbines", "performance"],
+            {"power_curve": POWERS, "Ct_curve": {"Ct_values": [1]}},
+            "Ct_curve.Ct_wind_speeds to be given",
+        ),
+        (
+            ["turbines", "performance"],
+            {"power_curve": POWERS, "Ct_curve": CT | {"Ct_wind_speeds": [4, 4, 5]}},
+            "Ct_wind_speeds to be two or more, increasing",
+        ),
         (["name"], ..., "Expected name to be given"),
         (["layouts"], ..., "Expected layouts to be given"),
         (["layouts"], [], "layouts to hold a layout"),

@@ -7,7 +7,7 @@ from typing import Any
 
 from windopt.checking.inspection import check_inspection
 from windopt.checking.report import Report
-from windopt.checking.yaw import check_yaw, most_power
+from windopt.checking.yaw import check_yaw, power_to_beat
 from windopt.domain.certificate import Certificate
 from windopt.domain.plan import InspectionPlan, Plan, YawPlan
 from windopt.errors import InvalidInput
@@ -73,8 +73,9 @@ def _promises(result: Result[Any]) -> Iterator[str]:
     overstated = result.bound - value if flights else value - result.bound
     if isnan(result.bound) or overstated > slack:
         yield f"the bound of {result.bound:.9g} does not bound the objective of {value:.9g}"
-    if isinstance(plan, YawPlan) and result.bound < most_power(plan) * (1 - TOLERANCE):
-        yield f"the bound of {result.bound:.9g} W is below the {most_power(plan):.9g} W possible"
+    if isinstance(plan, YawPlan) and result.bound < power_to_beat(plan) * (1 - TOLERANCE):
+        possible = power_to_beat(plan)
+        yield f"the bound of {result.bound:.9g} W is below the {possible:.9g} W possible"
     if not result.asked_gap >= 0:
         yield f"a gap of {result.asked_gap:.3g} cannot have been asked for"
     if result.status is Status.OPTIMAL:

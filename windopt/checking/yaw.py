@@ -1,145 +1,113 @@
-"""Checks of yaw set-points: angles, limits, and the power they really give."""
+"""Checks of yaw set-points under wakes: bounds, caps, and the power the exact model gives them."""
 
 from collections.abc import Iterator
 from dataclasses import astuple
-from math import cos, degrees, isclose, isfinite, pi
+from math import degrees, isclose, isfinite
 
-from windopt.checking.power_coefficient import (
-    CONSTANTS,
-    PITCH,
-    TIP_SPEED_RATIO,
-    largest_power_coefficient,
-    power_coefficient,
-)
+import numpy as np
+
+from windopt.checking.power_coefficient import CONSTANTS, largest_power_coefficient
 from windopt.checking.report import Report
+from windopt.checking.turbine_yaw import (
+    ANGLE_TOLERANCE,
+    POWER_TOLERANCE,
+    angles,
+    check_turbine_yaw,
+    most_power,
+)
 from windopt.domain.plan import SetPoint, YawPlan
-from windopt.domain.turbine import Turbine
-
-ANGLE_TOLERANCE = 1e-6  # rad; a nacelle's encoder resolves some 1e-3
-POWER_TOLERANCE = 1e-6  # of rated power; what is asked of the solver
-BETZ = 16 / 27
-FEATHERED = 90.0  # deg
+from windopt.domain.power_curve import PowerCurve
+from windopt.domain.steering import yaw_problem
+from windopt.domain.turbine import TurbineType
+from windopt.domain.yaw_problem import YawProblem
+from windopt.errors import InvalidInput
+from windopt.wakes.farm import expected_yield, farm_power
 
 
 def check_yaw(plan: YawPlan) -> Report:
-    """Recompute every set-point of a plan."""
-    violations = []
-    names = tuple(point.turbine for point in plan.set_points)
-    if names != plan.farm.names:
-        violations.append("the set-points are not those of the farm's turbines, in order")
-    turbines = {turbine.name: turbine for turbine in plan.farm.turbines}
-    for point in plan.set_points:
-        if turbine := turbines.get(point.turbine):
-            violations += [
-                f"turbine {point.turbine}: {s}" for s in _set_point(point, turbine, plan)
-            ]
-    facing = most_power(plan)
-    if not isclose(plan.power_baseline, facing, rel_tol=POWER_TOLERANCE):
-        violations.append(
-            f"a power of {plan.power_baseline:.9g} W is said for every nacelle facing the wind, "
-            f"{facing:.9g} W is found"
-        )
-    return Report(tuple(violations), set_points=len(plan.set_points))
+    """Recompute every set-point of a plan, under wakes where it was made for them."""
+    if plan.steering is None:
+        return check_turbine_yaw(plan)
+    count = len(plan.set_points)
+    if tuple(point.turbine for point in plan.set_points) != plan.farm.names:
+        sentence = "the set-points are not those of the farm's turbines, in order"
+        return Report((sentence,), set_points=count)
+    unreal = [point.turbine for point in plan.set_points if not _finite(point)]
+    if unreal:
+        return Report(tuple(f"turbine {name}: a value is not a number" for name in unreal))
+    try:
+        problem = _problem(plan)
+    except InvalidInput as error:
+        return Report((f"the wakes cannot be recomputed: {error}",), set_points=count)
+    return Report(tuple(_violations(plan, problem)), set_points=count)
 
 
-def most_power(plan: YawPlan) -> float:
-    """Return what the farm delivers with every nacelle facing the wind [W].
-
-    Without wakes no set-points deliver more. Turbines of an unknown C_p model count nothing.
-    """
-    return sum(_most_power(turbine, plan) for turbine in plan.farm.turbines)
-
-
-def _most_power(turbine: Turbine, plan: YawPlan) -> float:
-    model = turbine.type.power_coefficient
-    if not _runs(turbine, plan) or model not in CONSTANTS:
+def power_to_beat(plan: YawPlan) -> float:
+    """Return what set-points that face the wind deliver [W]: no bound may lie below."""
+    if plan.steering is None:
+        return most_power(plan)
+    try:
+        problem = _problem(plan)
+    except InvalidInput:  # said by `check_yaw`
         return 0.0
-    free = _power_of_the_wind(plan.wind.speed, turbine, plan)
-    return min(turbine.type.rated_power, free * largest_power_coefficient(model))
+    return float(farm_power(problem, problem.facing))
 
 
-def _runs(turbine: Turbine, plan: YawPlan) -> bool:
-    return turbine.type.cut_in <= plan.wind.speed < turbine.type.cut_out
+def _finite(point: SetPoint) -> bool:
+    return all(isfinite(v) for v in astuple(point) if isinstance(v, float | int))
 
 
-def _power_of_the_wind(speed: float, turbine: Turbine, plan: YawPlan) -> float:
-    """Return 1/2 rho A w^3 [W], infinite rather than an error where it is too large."""
-    return 0.5 * plan.air_density * turbine.type.swept_area * speed * speed * speed
+def _problem(plan: YawPlan) -> YawProblem:
+    assert plan.steering is not None  # asked by those who call
+    return yaw_problem(plan.farm, plan.wind, plan.steering, _curve, air_density=plan.air_density)
 
 
-def _set_point(point: SetPoint, turbine: Turbine, plan: YawPlan) -> Iterator[str]:
-    numbers = (value for value in astuple(point) if not isinstance(value, str))
-    if not all(isfinite(value) for value in numbers):
-        yield "a value is not a number"
+def _curve(type_: TurbineType) -> PowerCurve:
+    if type_.curve is None and type_.power_coefficient not in CONSTANTS:
+        raise InvalidInput("C_p model", "to be known", type_.power_coefficient)
+    return type_.curve or type_.curve_by(largest_power_coefficient(type_.power_coefficient))
+
+
+def _violations(plan: YawPlan, problem: YawProblem) -> Iterator[str]:
+    gamma = np.array([point.misalignment for point in plan.set_points])
+    if (np.abs(gamma) >= np.pi / 2).any():
+        yield "a rotor is turned by 90 deg or more"
         return
-    yield from _angles(point, plan)
-    yield from _limits(point, turbine, plan)
-    outside = tuple(_rotor(point))
-    yield from outside
-    if not outside:  # there the models have poles
-        yield from _power(point, turbine, plan)
-
-
-def _angles(point: SetPoint, plan: YawPlan) -> Iterator[str]:
-    if not -ANGLE_TOLERANCE <= point.nacelle <= 2 * pi + ANGLE_TOLERANCE:
-        yield f"the nacelle's direction of {degrees(point.nacelle):.6g} deg is not on the compass"
-    if not isclose(point.wind_speed, plan.wind.speed, rel_tol=1e-9, abs_tol=1e-9):
-        yield f"its wind of {point.wind_speed:.6g} m/s is not the free {plan.wind.speed:.6g} m/s"
-    if plan.wind.speed > 0:
-        misalignment = (plan.wind.theta_met - point.nacelle + pi) % (2 * pi) - pi
-        distance = abs(misalignment - point.misalignment)
-        if min(distance, 2 * pi - distance) > ANGLE_TOLERANCE:
-            said, found = degrees(point.misalignment), degrees(misalignment)
-            yield f"a misalignment of {said:.6g} deg is said, {found:.6g} deg is found"
-
-
-def _limits(point: SetPoint, turbine: Turbine, plan: YawPlan) -> Iterator[str]:
-    rated = turbine.type.rated_power
-    free = _power_of_the_wind(plan.wind.speed, turbine, plan)
-    least = _most_power(turbine, plan)
-    if not 0 <= point.power <= rated:
-        yield f"its power of {point.power:.9g} W is not between 0 and the rated {rated:.9g} W"
-    if point.power > 0 and not _runs(turbine, plan):
-        yield f"it delivers power in {plan.wind.speed:.6g} m/s, outside cut-in and cut-out"
-    if point.power > point.maximum * (1 + POWER_TOLERANCE):
-        yield f"its power of {point.power:.9g} W is above its certified {point.maximum:.9g} W"
-    if point.maximum > min(rated, BETZ * free) * (1 + POWER_TOLERANCE):
-        yield f"its certified {point.maximum:.9g} W is above rated power or the Betz limit"
-    if point.maximum < least * (1 - POWER_TOLERANCE):
-        yield f"its certified {point.maximum:.9g} W is below the {least:.9g} W it can deliver"
-
-
-def _rotor(point: SetPoint) -> Iterator[str]:
-    """Pitch and tip-speed ratio: where the C_p models hold, or parked."""
-    if _parked(point):
-        return
-    if not _within(TIP_SPEED_RATIO, point.tip_speed_ratio):
-        yield f"its tip-speed ratio of {point.tip_speed_ratio:.6g} is not between 1 and 15"
-    if not _within(PITCH, degrees(point.pitch)):
-        yield f"its pitch of {degrees(point.pitch):.6g} deg is not between 0 and 30 deg"
-
-
-def _within(limits: tuple[float, float], value: float) -> bool:
-    low, high = limits
-    return low - ANGLE_TOLERANCE <= value <= high + ANGLE_TOLERANCE
-
-
-def _parked(point: SetPoint) -> bool:
-    """Whether the rotor stands still, its blades feathered."""
-    return point.tip_speed_ratio == 0 and isclose(degrees(point.pitch), FEATHERED, rel_tol=1e-9)
-
-
-def _power(point: SetPoint, turbine: Turbine, plan: YawPlan) -> Iterator[str]:
-    """Hold the power said against what pitch, tip-speed ratio and misalignment give."""
-    if turbine.type.power_coefficient not in CONSTANTS:
-        yield f"its C_p model {turbine.type.power_coefficient} is unknown"
-        return
-    power = 0.0
-    if _runs(turbine, plan) and not _parked(point):
-        effective = plan.wind.speed * max(0.0, cos(point.misalignment))
-        C_p = power_coefficient(
-            turbine.type.power_coefficient, point.tip_speed_ratio, degrees(point.pitch)
+    found = expected_yield(problem, gamma)
+    most = problem.weights @ problem.unwaked
+    for i, point in enumerate(plan.set_points):
+        for sentence in (
+            *angles(point, plan),
+            *_bounds(point, plan),
+            *_yield(point, float(found.speeds[i]), float(found.powers[i]), float(most[i])),
+        ):
+            yield f"turbine {point.turbine}: {sentence}"
+    if plan.power > problem.farm_cap * (1 + POWER_TOLERANCE):
+        yield f"{plan.power:.9g} W are delivered, more than the farm's cap"
+    baseline = float(farm_power(problem, np.zeros(len(problem))))
+    if not isclose(plan.power_baseline, baseline, rel_tol=POWER_TOLERANCE, abs_tol=1e-3):
+        yield (
+            f"a power of {plan.power_baseline:.9g} W is said for every nacelle facing the wind, "
+            f"{baseline:.9g} W is found"
         )
-        power = _power_of_the_wind(effective, turbine, plan) * C_p
-    if not abs(power - point.power) <= POWER_TOLERANCE * turbine.type.rated_power:
-        yield f"a power of {point.power:.9g} W is said, its set-point gives {power:.9g} W"
+
+
+def _bounds(point: SetPoint, plan: YawPlan) -> Iterator[str]:
+    assert plan.steering is not None
+    lower, upper = plan.steering.lower, plan.steering.upper
+    if not lower - ANGLE_TOLERANCE <= point.misalignment <= upper + ANGLE_TOLERANCE:
+        said, low, high = (degrees(angle) for angle in (point.misalignment, lower, upper))
+        yield f"a misalignment of {said:.6g} deg is outside its bounds, {low:g} to {high:g} deg"
+    if point.pitch is not None or point.tip_speed_ratio is not None:
+        yield "a pitch or tip-speed ratio is said, which wakes leave to the turbine's controller"
+
+
+def _yield(point: SetPoint, speed: float, power: float, most: float) -> Iterator[str]:
+    """Hold what the set-point says against the exact model."""
+    for name, unit, said, is_so in (
+        ("wind", "m/s", point.wind_speed, speed),
+        ("power", "W", point.power, power),
+        ("certified maximum", "W", point.maximum, most),
+    ):
+        if not isclose(said, is_so, rel_tol=POWER_TOLERANCE, abs_tol=1e-3):
+            yield f"a {name} of {said:.9g} {unit} is said, {is_so:.9g} {unit} is found"

@@ -17,7 +17,7 @@ from windopt.domain.wind import WindSeries
 from windopt.planning.inspection import DEFAULT_METHOD
 from windopt.planning.plan import DEFAULT_FORECASTER
 from windopt.planning.plan import plan as make_plan
-from windopt.planning.yaw import AIR_DENSITY
+from windopt.planning.turbine_yaw import AIR_DENSITY
 
 WindFile = Annotated[
     Path, typer.Option("--wind", help="CSV file with time, speed and direction, or WIND Toolkit's.")

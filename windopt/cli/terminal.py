@@ -99,15 +99,19 @@ def _proof(result: Result[InspectionPlan]) -> str:
 def show_yaw(result: Result[YawPlan]) -> None:
     """Print a plan's set-points, turbines of equal set-points together."""
     plan = result.found()
-    table = Table("turbines", "nacelle (deg)", "misalignment (deg)", "pitch (deg)", "power (MW)")
+    columns = "turbines", "nacelle (deg)", "misalignment (deg)", "pitch (deg)", "power (MW)"
+    table = Table(*(c for c in columns if plan.steering is None or not c.startswith("pitch")))
     for row, names in _alike(plan).items():
         told = ", ".join(names[:4]) + (f" and {len(names) - 4} more" if len(names) > 4 else "")
         table.add_row(escape(told), *row)
     out.print(table)
+    gained = f" ({plan.gain:+.2%})" if plan.steering else ""
     say(
-        f"{plan.farm.name}: {plan.power / 1e6:.3f} MW in {plan.wind.speed:.2f} m/s; "
+        f"{plan.farm.name}: {plan.power / 1e6:.3f} MW{gained} in {plan.wind.speed:.2f} m/s; "
         f"facing the wind {plan.power_baseline / 1e6:.3f} MW."
     )
+    if plan.steering and isfinite(result.bound):
+        say(f"Bound {result.bound / 1e6:.3f} MW ({result.bound_source}), gap {result.gap:.2%}.")
     say(f"{result.status.sentence} {result.reason}".strip())
 
 
@@ -116,6 +120,6 @@ def _alike(plan: YawPlan) -> dict[tuple[str, ...], list[str]]:
     groups: dict[tuple[str, ...], list[str]] = {}
     for point in plan.set_points:
         angles = (point.nacelle, point.misalignment, point.pitch)
-        row = (*(f"{degrees(angle):.2f}" for angle in angles), f"{point.power / 1e6:.4f}")
-        groups.setdefault(row, []).append(point.turbine)
+        shown = (f"{degrees(angle):.2f}" for angle in angles if angle is not None)
+        groups.setdefault((*shown, f"{point.power / 1e6:.4f}"), []).append(point.turbine)
     return groups

@@ -1,5 +1,6 @@
 """``windopt yaw``: set-points for one steady wind."""
 
+from enum import StrEnum
 from math import radians
 from typing import Annotated
 
@@ -8,14 +9,43 @@ import typer
 from windopt.cli import options as opt
 from windopt.cli.files import require_free, write_folder
 from windopt.cli.outcome import exit_code, print_record
+from windopt.cli.steering import given_steering
 from windopt.cli.terminal import note, progress, show_yaw
 from windopt.domain.farm import Farm
+from windopt.domain.power_curve import STANDARD_AIR_DENSITY
+from windopt.domain.steering import Steering
 from windopt.domain.wind import Wind
-from windopt.planning.yaw import AIR_DENSITY, plan_yaw
+from windopt.errors import InvalidInput
+from windopt.io.turbines import load_turbine_type
+from windopt.planning.turbine_yaw import AIR_DENSITY, plan_turbine_yaw
+from windopt.planning.yaw import DEFAULT_METHOD, plan_yaw
 
 Nacelle = Annotated[
     float | None,
     typer.Option(help="Where every nacelle faces now [deg]; by default into the wind."),
+]
+AirDensity = Annotated[
+    float | None,
+    typer.Option(
+        help=f"Air density [kg/m3]; by default {STANDARD_AIR_DENSITY}, without wakes the paper's "
+        f"{AIR_DENSITY}."
+    ),
+]
+
+
+class Wakes(StrEnum):
+    """Whether turbines feel each other."""
+
+    GAUSS = "gauss"
+    NONE = "none"
+
+
+WakeModel = Annotated[
+    Wakes,
+    typer.Option(
+        help="FLORIS's gauss model, or none: the paper's problem, each turbine by itself, with "
+        "pitch and tip-speed ratio (methods nlp and algorithm-1)."
+    ),
 ]
 
 
@@ -23,9 +53,15 @@ def yaw(
     farm: opt.FarmName,
     wind_speed: opt.WindSpeed,
     wind_direction: opt.WindDirection,
-    method: opt.YawMethod = "nlp",
+    method: opt.YawMethod = DEFAULT_METHOD,
+    wakes: WakeModel = Wakes.GAUSS,
+    turbine: opt.TurbineName = None,
+    turbulence: opt.Turbulence = None,
+    bounds: opt.Bounds = None,
+    direction_std: opt.DirectionStd = None,
+    farm_cap: opt.FarmCap = None,
     nacelle: Nacelle = None,
-    air_density: opt.AirDensity = AIR_DENSITY,
+    air_density: AirDensity = None,
     power_coefficient: opt.PowerCoefficient = None,
     time_limit: opt.TimeLimit = 60.0,
     seed: opt.Seed = 0,
@@ -33,23 +69,41 @@ def yaw(
     out: opt.Out = None,
     force: opt.Force = False,
 ) -> None:
-    """Set every turbine's yaw, pitch and tip-speed ratio for the most power up to rated."""
+    """Turn every rotor so that, under the wakes of the others, the farm delivers the most power."""
     require_free(out, force=force)
     wind = Wind.from_met(wind_speed, wind_direction)
     site = Farm.load(farm)
+    if turbine is not None:
+        site = site.with_turbine_type(load_turbine_type(turbine))
     if power_coefficient is not None:
         site = site.with_power_coefficient(power_coefficient)
     note(site.notes)
+    steering = given_steering(turbulence, bounds, direction_std, farm_cap)
+    if wakes is Wakes.NONE and steering != Steering():
+        raise InvalidInput("--wakes", "gauss where a farm is steered by other options too", wakes)
+    present = None if nacelle is None else radians(nacelle)
     with progress(f"Setting {len(site)} turbines of {site.name} by {method}"):
-        result = plan_yaw(
-            site,
-            wind,
-            method=method,
-            nacelle=None if nacelle is None else radians(nacelle),
-            air_density=air_density,
-            time_limit=time_limit,
-            seed=seed,
-        )
+        if wakes is Wakes.GAUSS:
+            result = plan_yaw(
+                site,
+                wind,
+                method=method,
+                steering=steering,
+                nacelle=present,
+                air_density=STANDARD_AIR_DENSITY if air_density is None else air_density,
+                time_limit=time_limit,
+                seed=seed,
+            )
+        else:
+            result = plan_turbine_yaw(
+                site,
+                wind,
+                method=method,
+                nacelle=present,
+                air_density=AIR_DENSITY if air_density is None else air_density,
+                time_limit=time_limit,
+                seed=seed,
+            )
     if json:
         print_record(result)
     else:

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from windopt.domain.turbine import Turbine
+from windopt.domain.turbine import Turbine, TurbineType
 from windopt.errors import InvalidInput
 
 
@@ -86,6 +86,10 @@ class Farm:
 
     def __len__(self) -> int:
         return len(self.turbines)
+
+    def with_turbine_type(self, type_: TurbineType) -> "Farm":
+        """Return the farm with turbines of one type throughout."""
+        return replace(self, turbines=tuple(replace(t, type=type_) for t in self.turbines))
 
     def with_power_coefficient(self, model: str) -> "Farm":
         """Return the farm with every turbine's power coefficient by another C_p model."""

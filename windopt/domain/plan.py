@@ -7,6 +7,7 @@ import numpy as np
 
 from windopt.domain.farm import Farm
 from windopt.domain.fleet import Fleet
+from windopt.domain.steering import Steering
 from windopt.domain.wind import Wind, WindForecast
 from windopt.result import Result
 
@@ -34,14 +35,13 @@ class SetPoint:
         Direction the nacelle faces, clockwise from north [rad].
     misalignment
         Wind direction minus nacelle direction [rad], FLORIS's sign, in [-pi, pi).
-    pitch
-        Blade pitch beta [rad].
-    tip_speed_ratio
-        Lambda [-].
+    pitch, tip_speed_ratio
+        Blade pitch beta [rad] and lambda [-]; ``None`` under wakes, where they are left to the
+        turbine's own controller, which follows its power curve.
     wind_speed
-        Wind speed at the rotor [m/s].
+        Wind speed at the rotor [m/s]; where several winds may come, the mean.
     power
-        Power delivered [W].
+        Power delivered [W], likewise.
     maximum
         The most any set-point delivers in this wind [W], certified.
     """
@@ -49,8 +49,8 @@ class SetPoint:
     turbine: str
     nacelle: float
     misalignment: float
-    pitch: float
-    tip_speed_ratio: float
+    pitch: float | None
+    tip_speed_ratio: float | None
     wind_speed: float
     power: float
     maximum: float
@@ -66,6 +66,9 @@ class YawPlan:
         Power of the farm with every nacelle facing the wind [W].
     air_density
         Rho [kg/m3].
+    steering
+        What the farm is steered under; ``None`` where its turbines are taken one by one, without
+        wakes.
     """
 
     farm: Farm
@@ -73,11 +76,17 @@ class YawPlan:
     set_points: tuple[SetPoint, ...]
     power_baseline: float
     air_density: float
+    steering: Steering | None = None
 
     @property
     def power(self) -> float:
         """Power of the farm [W]."""
         return sum(point.power for point in self.set_points)
+
+    @property
+    def gain(self) -> float:
+        """Power gained over the baseline, as a fraction of it [-]; 0 where there is none."""
+        return self.power / self.power_baseline - 1 if self.power_baseline else 0.0
 
 
 @dataclass(frozen=True)

@@ -19,6 +19,9 @@ of 3 by 3 points."""
 SHEAR = 0.12
 """FLORIS's default exponent of the wind's growth with height [-]."""
 
+STRONGEST = 1000.0
+"""No wind is as strong [m/s]; beyond, cubes of it might overflow."""
+
 
 @dataclass(frozen=True, eq=False)
 class YawProblem:
@@ -114,8 +117,8 @@ class YawProblem:
             raise InvalidInput("rotor_diameters", "> 0", self.rotor_diameters.min())
         if not (self.hub_heights > self.rotor_diameters / 2).all():
             raise InvalidInput("hub_heights", "above half the rotor", self.hub_heights.min())
-        if not (self.wind_speeds >= 0).all():
-            raise InvalidInput("wind_speeds", ">= 0", self.wind_speeds.min())
+        if not ((self.wind_speeds >= 0) & (self.wind_speeds < STRONGEST)).all():
+            raise InvalidInput("wind_speeds", f"from 0 to {STRONGEST:g} m/s", self.wind_speeds)
         if not (self.weights >= 0).all() or abs(self.weights.sum() - 1) > 1e-9:
             raise InvalidInput("weights", ">= 0 with sum 1", self.weights.sum())
         if not ((-np.pi / 2 < self.lower) & (self.lower <= self.upper)).all():

@@ -20,9 +20,16 @@ Set-points carry the pitch of a real turbine, so they keep the rated power in th
 :func:`exceeds_rated` tells whether the rule alone would not have.
 """
 
-from math import cos
+from math import cos, inf
+from time import perf_counter
+
+import numpy as np
+from numpy.typing import NDArray
 
 from formulations.rotor import OperatingPoint, PowerCoefficient, operating_point, power
+from windopt.domain.yaw_problem import YawProblem
+from windopt.result import Result, Status
+from windopt.wakes.farm import farm_power
 
 
 def algorithm_1(
@@ -56,3 +63,27 @@ def exceeds_rated(
     The parameters are those of :func:`algorithm_1`, with ``gamma`` the yaw kept [rad].
     """
     return bool(power(rho, A, w, max(0.0, cos(gamma)), C_p.best().C_p) > p_rated)
+
+
+def face_or_hold(
+    problem: YawProblem, *, time_limit: float = inf, seed: int = 0
+) -> Result[NDArray[np.float64]]:
+    """Follow the paper's rule in a farm: it looks at the free wind and knows of no wakes.
+
+    A turbine holds its present misalignment, as far as its bounds let it, where the free wind would
+    let it deliver its rated power or more, and faces the wind elsewhere.
+
+    Parameters
+    ----------
+    problem
+        The farm and its winds; where there are several, their mean unwaked power decides.
+    time_limit, seed
+        Not needed: the rule takes no time and draws nothing.
+    """
+    begin = perf_counter()
+    rated = np.array([max(curve.powers) for curve in problem.curves])[problem.curve_of]
+    present = np.zeros(len(problem)) if problem.present is None else problem.present
+    hold = problem.weights @ problem.unwaked >= rated
+    gamma = np.clip(np.where(hold, present, 0.0), problem.lower, problem.upper)
+    power = float(farm_power(problem, gamma))
+    return Result(Status.FEASIBLE, gamma, power, problem.bound, perf_counter() - begin)

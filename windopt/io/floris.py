@@ -1,29 +1,29 @@
 """Farms in FLORIS v4's input files: ``farm.layout_x``, ``layout_y`` and ``turbine_type``."""
 
+from functools import cache
 from math import pi
+from pathlib import Path
 from typing import Any
 
 from windopt.domain.farm import Farm
+from windopt.domain.power_curve import STANDARD_AIR_DENSITY, YAW_EXPONENT, PowerCurve
 from windopt.domain.turbine import SG_8_167, Turbine, TurbineType
 from windopt.errors import InvalidInput
 from windopt.io.entries import Entry
 from windopt.io.turbine_names import distinct_names
 from windopt.io.turbine_types import CURVE_NOTE
+from windopt.io.yaml_files import read_yaml
+
+TURBINES = Path(__file__).parents[1] / "data" / "turbines"
+
+LIBRARY = ("nrel_5MW", "iea_10MW", "iea_15MW", "iea_22MW")
+"""FLORIS's own turbines, as published in FLORIS 4.7's turbine library."""
 
 
-def _reference(name: str, megawatts: float, diameter: float, hub_height: float) -> TurbineType:
-    area = pi * diameter**2 / 4
-    return TurbineType(name, megawatts * 1e6, area, cut_in=3.0, cut_out=25.0, hub_height=hub_height)
-
-
-LIBRARY = {
-    "nrel_5MW": _reference("NREL 5 MW", 5, 125.88, 90),
-    "iea_10MW": _reference("IEA 10 MW", 10, 198, 119),
-    "iea_15MW": _reference("IEA 15 MW", 15, 242.24, 150),
-    "iea_22MW": _reference("IEA 22 MW", 22, 284, 170),
-}
-"""FLORIS's own turbines: rating, rotor, hub height and the wind speeds at which its tables start
-and end, as published in FLORIS 4.7's turbine library."""
+@cache
+def library_turbine(name: str) -> TurbineType:
+    """Return one of FLORIS's own turbines."""
+    return turbine_type(Entry(read_yaml(TURBINES / f"{name}.yaml")))
 
 
 def is_floris(document: Any) -> bool:
@@ -69,7 +69,8 @@ def _types(entry: Entry, n: int) -> tuple[list[TurbineType], tuple[str, ...]]:
         if isinstance(given.value, dict):
             types.append(turbine_type(given))
         else:
-            types.append(LIBRARY.get(given.text, SG_8_167))
+            known = given.text in LIBRARY
+            types.append(library_turbine(given.text) if known else SG_8_167)
             unknown += [given.text] if given.text not in LIBRARY else []
     if len(types) not in (1, n):
         raise InvalidInput(entry.path, f"to hold 1 type or {n}, one per turbine", len(types))
@@ -77,7 +78,7 @@ def _types(entry: Entry, n: int) -> tuple[list[TurbineType], tuple[str, ...]]:
         f"The turbine {name} is not in FLORIS's library; {SG_8_167.name} is assumed."
         for name in dict.fromkeys(unknown)
     )
-    curve_note = (CURVE_NOTE,) if len(unknown) < len(types) else ()
+    curve_note = (CURVE_NOTE,) if any(t.curve is None and t != SG_8_167 for t in types) else ()
     return types * n if len(types) == 1 else types, (*notes, *curve_note)
 
 
@@ -97,4 +98,20 @@ def turbine_type(entry: Entry) -> TurbineType:
         cut_in=min(running),
         cut_out=max(running),
         hub_height=entry["hub_height"].number if "hub_height" in entry else None,
+        curve=_curve(table) if "thrust_coefficient" in table else None,
+    )
+
+
+def _curve(table: Entry) -> PowerCurve:
+    """Read a table that has thrust coefficients too."""
+
+    def given(key: str, default: float) -> float:
+        return table[key].number if key in table else default
+
+    return PowerCurve(
+        tuple(table["wind_speed"].numbers),
+        tuple(1e3 * kilowatts for kilowatts in table["power"].numbers),
+        tuple(table["thrust_coefficient"].numbers),
+        given("ref_air_density", STANDARD_AIR_DENSITY),
+        given("cosine_loss_exponent_yaw", YAW_EXPONENT),
     )

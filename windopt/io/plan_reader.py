@@ -19,6 +19,8 @@ from windopt.domain.plan import (
     Unreachable,
     YawPlan,
 )
+from windopt.domain.power_curve import PowerCurve
+from windopt.domain.steering import Steering
 from windopt.domain.turbine import Turbine, TurbineType
 from windopt.domain.wind import Wind, WindForecast
 from windopt.errors import InvalidInput
@@ -150,18 +152,34 @@ def _yaw(record: Entry, farm: Farm) -> YawPlan:
         tuple(_set_point(entry, farm) for entry in record["turbines"]),
         record["power_baseline"].number,
         record["air_density"].number,
+        None if (steering := record.nullable("steering")) is None else _steering(steering),
+    )
+
+
+def _steering(entry: Entry) -> Steering:
+    cap = entry.nullable("farm_cap")
+    lower, upper = _pair(entry["bounds"])
+    return Steering(
+        entry["turbulence"].number,
+        radians(lower),
+        radians(upper),
+        radians(entry["direction_std"].number),
+        tuple((_wind(row["wind"]), row["weight"].number) for row in entry["scenarios"]),
+        inf if cap is None else cap.number,
+        entry["shear"].number,
     )
 
 
 def _set_point(entry: Entry, farm: Farm) -> SetPoint:
     if entry["name"].text not in farm.names:
         raise entry["name"].refuse("to name a turbine of the farm")
+    pitch, tip_speed_ratio = entry.nullable("pitch"), entry.nullable("tip_speed_ratio")
     return SetPoint(
         entry["name"].text,
-        nacelle=radians(entry["yaw"].number),
+        nacelle=radians(entry["nacelle"].number),
         misalignment=radians(entry["misalignment"].number),
-        pitch=radians(entry["pitch"].number),
-        tip_speed_ratio=entry["tip_speed_ratio"].number,
+        pitch=None if pitch is None else radians(pitch.number),
+        tip_speed_ratio=None if tip_speed_ratio is None else tip_speed_ratio.number,
         wind_speed=entry["wind_speed"].number,
         power=entry["power"].number,
         maximum=entry["maximum"].number,
@@ -200,13 +218,13 @@ def _farm(entry: Entry) -> Farm:
         entry["name"].text,
         tuple(_turbine(turbine, types) for turbine in entry["turbines"]),
         None if crs is None else crs.text,
-        tuple(_point(place) for place in entry["substations"]),
+        tuple(_pair(place) for place in entry["substations"]),
         entry["source"].text,
         tuple(entry["notes"].texts),
     )
 
 
-def _point(entry: Entry) -> tuple[float, float]:
+def _pair(entry: Entry) -> tuple[float, float]:
     if len(entry.numbers) != 2:
         raise entry.refuse("to be a pair of numbers")
     x, y = entry.numbers
@@ -231,4 +249,15 @@ def _turbine_type(entry: Entry) -> TurbineType:
         entry["cut_out"].number,
         None if hub_height is None else hub_height.number,
         entry["power_coefficient"].text,
+        None if (curve := entry.nullable("curve")) is None else _curve(curve),
+    )
+
+
+def _curve(entry: Entry) -> PowerCurve:
+    return PowerCurve(
+        tuple(entry["wind_speeds"].numbers),
+        tuple(entry["powers"].numbers),
+        tuple(entry["thrust_coefficients"].numbers),
+        entry["air_density"].number,
+        entry["yaw_exponent"].number,
     )

@@ -13,6 +13,8 @@ from typing import Any
 from windopt.domain.farm import Farm
 from windopt.domain.fleet import Station, Uav
 from windopt.domain.plan import Flight, InspectionPlan, Plan, SetPoint, YawPlan
+from windopt.domain.power_curve import PowerCurve
+from windopt.domain.steering import Steering
 from windopt.domain.turbine import TurbineType
 from windopt.domain.wind import Wind, WindForecast
 from windopt.result import Result
@@ -20,7 +22,7 @@ from windopt.result import Result
 Record = dict[str, Any]
 
 SCHEMA = "windopt/plan"
-VERSION = 1
+VERSION = 2
 
 
 def inspection_record(result: Result[InspectionPlan]) -> Record:
@@ -97,7 +99,22 @@ def _yaw(plan: YawPlan) -> Record:
         "air_density": float(plan.air_density),
         "power": float(plan.power),
         "power_baseline": float(plan.power_baseline),
+        "gain": _finite(plan.gain),
+        "steering": None if plan.steering is None else _steering(plan.steering),
         "turbines": [_set_point(point, rated[point.turbine]) for point in plan.set_points],
+    }
+
+
+def _steering(steering: Steering) -> Record:
+    return {
+        "turbulence": float(steering.turbulence),
+        "bounds": [_degrees(steering.lower), _degrees(steering.upper)],
+        "direction_std": _degrees(steering.direction_std),
+        "scenarios": [
+            {"wind": _wind(wind), "weight": float(weight)} for wind, weight in steering.scenarios
+        ],
+        "farm_cap": _finite(steering.farm_cap),
+        "shear": float(steering.shear),
     }
 
 
@@ -143,10 +160,11 @@ def _flight(flight: Flight) -> Record:
 def _set_point(point: SetPoint, rated_power: float) -> Record:
     return {
         "name": point.turbine,
-        "yaw": _degrees(point.nacelle),
+        "yaw": _degrees(point.misalignment),
         "misalignment": _degrees(point.misalignment),
-        "pitch": _degrees(point.pitch),
-        "tip_speed_ratio": float(point.tip_speed_ratio),
+        "nacelle": _degrees(point.nacelle),
+        "pitch": None if point.pitch is None else _degrees(point.pitch),
+        "tip_speed_ratio": None if point.tip_speed_ratio is None else float(point.tip_speed_ratio),
         "wind_speed": float(point.wind_speed),
         "power": float(point.power),
         "maximum": float(point.maximum),
@@ -205,4 +223,15 @@ def _turbine_type(type_: TurbineType) -> Record:
         "cut_out": float(type_.cut_out),
         "hub_height": None if type_.hub_height is None else float(type_.hub_height),
         "power_coefficient": type_.power_coefficient,
+        "curve": None if type_.curve is None else _curve(type_.curve),
+    }
+
+
+def _curve(curve: PowerCurve) -> Record:
+    return {
+        "wind_speeds": list(map(float, curve.wind_speeds)),
+        "powers": list(map(float, curve.powers)),
+        "thrust_coefficients": list(map(float, curve.thrust_coefficients)),
+        "air_density": float(curve.air_density),
+        "yaw_exponent": float(curve.yaw_exponent),
     }

@@ -4,7 +4,9 @@ from collections.abc import Sequence
 
 from windopt.domain.turbine import SG_8_167, TurbineType
 
-CURVE_NOTE = "Power follows the C_p model slootweg; the power curves of the source are not used."
+CURVE_NOTE = (
+    "The source gives no thrust coefficients; power and thrust follow the C_p model slootweg."
+)
 DEFAULT_NOTE = f"The source names no turbine type; {SG_8_167.name} is assumed."
 
 

@@ -5,18 +5,22 @@ Of several layouts the first is used. The coordinate system may be a PROJ text, 
 an EPSG code or a UTM zone.
 """
 
+from itertools import pairwise
 from math import pi
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from windopt.domain.farm import Farm
+from windopt.domain.power_curve import STANDARD_AIR_DENSITY as RHO
+from windopt.domain.power_curve import STEP, PowerCurve
 from windopt.domain.turbine import SG_8_167, Turbine, TurbineType
 from windopt.errors import InvalidInput
 from windopt.io.coordinates import projected_crs
 from windopt.io.entries import Entry
 from windopt.io.turbine_names import distinct_names
 from windopt.io.turbine_types import CURVE_NOTE, DEFAULT_NOTE
-
-RHO = 1.225  # kg/m3, the standard atmosphere's, for turbines given by C_p alone
 
 
 def is_windio(document: Any) -> bool:
@@ -103,11 +107,10 @@ def _types(plant: Entry, layout: Entry, n: int) -> tuple[list[TurbineType], tupl
         for entry in listed:
             if entry.label not in types:
                 raise entry.refuse(f"to be one of {', '.join(types)}")
-        curves = any(_has_curve(entry) for _, entry in plant["turbine_types"].items())
-        return [types[entry.label] for entry in listed], (CURVE_NOTE,) if curves else ()
+        notes = {note for _, entry in plant["turbine_types"].items() for note in _curve_note(entry)}
+        return [types[entry.label] for entry in listed], tuple(notes)
     if "turbines" in plant:
-        notes = (CURVE_NOTE,) if _has_curve(plant["turbines"]) else ()
-        return [turbine_type(plant["turbines"])] * n, notes
+        return [turbine_type(plant["turbines"])] * n, _curve_note(plant["turbines"])
     return [SG_8_167] * n, (DEFAULT_NOTE,)
 
 
@@ -126,11 +129,50 @@ def turbine_type(entry: Entry) -> TurbineType:
         cut_in=given("cutin_wind_speed", SG_8_167.cut_in),
         cut_out=given("cutout_wind_speed", SG_8_167.cut_out),
         hub_height=entry["hub_height"].number if "hub_height" in entry else None,
+        curve=_curve(performance, area),
     )
 
 
-def _has_curve(entry: Entry) -> bool:
-    return any(curve in entry["performance"] for curve in ("power_curve", "Cp_curve"))
+def _curve_note(entry: Entry) -> tuple[str, ...]:
+    """Say that curves are not used, where there are some without thrust coefficients."""
+    curves = any(curve in entry["performance"] for curve in ("power_curve", "Cp_curve"))
+    return (CURVE_NOTE,) if curves and "Ct_curve" not in entry["performance"] else ()
+
+
+def _curve(performance: Entry, area: float) -> PowerCurve | None:
+    """Return power and thrust at all speeds with a power, where both are given."""
+    if "Ct_curve" not in performance:
+        return None
+    C_T, v_T = _table(performance["Ct_curve"], "Ct_values", "Ct_wind_speeds")
+    if "power_curve" in performance:
+        p, v = _table(performance["power_curve"], "power_values", "power_wind_speeds")
+        w = _within(v, [*v, *v_T])
+        power = np.interp(w, v, p)
+    elif "Cp_curve" in performance:
+        C_p, v = _table(performance["Cp_curve"], "Cp_values", "Cp_wind_speeds")
+        w = _within(v, [*v, *v_T, *np.arange(min(v), max(v), STEP)])
+        power = RHO / 2 * area * np.interp(w, v, C_p) * w**3
+        if "rated_power" in performance:
+            power = np.minimum(power, performance["rated_power"].number)
+    else:
+        return None
+    thrust = np.interp(w, v_T, C_T, left=0.0, right=0.0)
+    return PowerCurve(tuple(w.tolist()), tuple(power.tolist()), tuple(thrust.tolist()))
+
+
+def _within(v: list[float], speeds: list[float]) -> NDArray[np.float64]:
+    """Return the distinct ones of ``speeds`` that the table over ``v`` reaches."""
+    w = np.unique(speeds)
+    return w[(w >= min(v)) & (w <= max(v))]
+
+
+def _table(curve: Entry, values: str, wind_speeds: str) -> tuple[list[float], list[float]]:
+    """Return a curve's values and the wind speeds they hold at, which must increase."""
+    C, v = curve[values].numbers, curve[wind_speeds].numbers
+    _require_length(curve[wind_speeds], len(C))
+    if len(v) < 2 or any(low >= high for low, high in pairwise(v)):
+        raise curve[wind_speeds].refuse("to be two or more, increasing")
+    return C, v
 
 
 def _rated_power(performance: Entry, area: float) -> float:

@@ -16,7 +16,7 @@ from windopt.forecasting.forecaster import Forecaster
 from windopt.forecasting.lstm import EdgeForecaster
 from windopt.forecasting.persistence import Persistence
 from windopt.planning.inspection import DEFAULT_METHOD, plan_inspection
-from windopt.planning.yaw import AIR_DENSITY, plan_yaw
+from windopt.planning.turbine_yaw import AIR_DENSITY, plan_turbine_yaw
 from windopt.result import Result, Status
 from windopt.trace import Progress
 
@@ -146,7 +146,7 @@ def _yaw_steps(
     nacelle: float | Sequence[float] = start
     steps: list[Result[YawPlan]] = []
     for wind in forecast.winds:
-        result = plan_yaw(
+        result = plan_turbine_yaw(
             farm,
             wind,
             method=method,

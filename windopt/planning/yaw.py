@@ -1,135 +1,83 @@
-"""Yaw set-points: turbines in a wind become programs, and their solutions set-points.
+"""Wake steering: a farm in a wind becomes a yaw problem, and misalignments become set-points.
 
-Each turbine sees the free wind; wakes are left out. Then the most that a turbine can deliver is
-known beforehand, min(rated, 1/2 rho A w^3 C_p,max), and the sum over the farm is a bound that can
-prove a plan optimal. It is also what the farm delivers with every nacelle facing the wind.
-
-The program decides the yaw. Above the rated power, pitch and tip-speed ratio are free along a
-curve, and set-points take the point of it that keeps the rotor at its rated speed.
+Every method takes the same problem and is judged by the exact model of :mod:`windopt.wakes`. No
+misalignment lets a turbine deliver more than it does unwaked, so the sum of that over the farm is a
+proven bound; it is reached where the wind is strong enough for all to run at rated power.
 """
 
-import threading
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
-from functools import lru_cache
-from math import isnan, nan, pi, radians, remainder
+from collections.abc import Sequence
+from math import isnan, pi
 from time import perf_counter
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from formulations.rotor import MODELS, PITCH, TIP_SPEED_RATIO, OperatingPoint, PowerCoefficient
-from formulations.rotor import operating_point as pitch_controlled
-from formulations.turbine_yaw import TurbineYaw, turbine_yaw
+from formulations.rotor import MODELS
 from windopt.domain.farm import Farm
 from windopt.domain.plan import SetPoint, YawPlan
+from windopt.domain.power_curve import STANDARD_AIR_DENSITY, PowerCurve
+from windopt.domain.steering import Steering, yaw_problem
 from windopt.domain.turbine import TurbineType, require_positive
 from windopt.domain.wind import Wind
+from windopt.domain.yaw_problem import YawProblem
 from windopt.errors import InvalidInput
-from windopt.heuristics.algorithm_1 import algorithm_1, exceeds_rated
+from windopt.heuristics.algorithm_1 import face_or_hold
+from windopt.planning.turbine_yaw import GAP, present_misalignments
 from windopt.result import Result, Status
-from windopt.solving import nonlinear
+from windopt.wakes.farm import expected_yield, farm_power
 
-METHODS = ("nlp", "algorithm-1")
-POWER_COEFFICIENTS = tuple(MODELS)
-"""C_p models by the names they are chosen by."""
-AIR_DENSITY = 1.065
-"""The paper's air density [kg/m3]."""
-GAP = 1e-6
-"""Relative distance to its bound at which a plan counts as proved optimal."""
-FURTHER_STARTS = 8
-FEATHERED = 90.0  # deg
-# CasADi's programs keep their last solution, and its references are not counted safely.
-_CASADI = threading.Lock()
-BOUND_SOURCE = "sum over the turbines of min(rated power, 1/2 rho A w^3 C_p,max)"
+Floats = NDArray[np.float64]
+
+BOUND_SOURCE = "every turbine unwaked, facing the wind"
 
 
-@dataclass(frozen=True)
-class _Case:
-    """One kind of turbine in one wind; turbines of the same case are decided once."""
+class YawMethod(Protocol):
+    """What every method of wake steering is: a problem in, misalignments [rad] out."""
 
-    type: TurbineType
-    gamma_0: float
-    w: float
-    rho: float
+    def __call__(
+        self, problem: YawProblem, *, time_limit: float, seed: int
+    ) -> Result[NDArray[np.float64]]: ...
 
-    def __post_init__(self) -> None:
-        name = self.type.power_coefficient
-        if name not in MODELS:
-            raise InvalidInput("power_coefficient", f"to be one of {', '.join(MODELS)}", repr(name))
 
-    @property
-    def model(self) -> PowerCoefficient:
-        return MODELS[self.type.power_coefficient]
-
-    @property
-    def limits(self) -> dict[str, float]:
-        A, p_rated = self.type.swept_area, self.type.rated_power
-        return {"w": self.w, "rho": self.rho, "A": A, "p_rated": p_rated}
-
-    @property
-    def running(self) -> bool:
-        return self.type.cut_in <= self.w < self.type.cut_out
-
-    @property
-    def maximum(self) -> float:
-        """The most that any set-point delivers [W]: what one facing the wind does."""
-        return self.facing(0.0).power if self.running else 0.0
-
-    def facing(self, gamma: float) -> OperatingPoint:
-        """How the turbine runs at a misalignment [rad]."""
-        return pitch_controlled(self.model, gamma, **self.limits)
-
-    def by_rule(self) -> OperatingPoint:
-        """How the paper's rule runs it; parked, with its yaw held, where there is no power."""
-        if not self.running:
-            return OperatingPoint(self.gamma_0, 0.0, FEATHERED, 0.0)
-        return algorithm_1(self.model, self.gamma_0, **self.limits)
-
-    @property
-    def kept_by_rule(self) -> bool:
-        """Whether the paper's rule keeps the old yaw."""
-        return self.running and exceeds_rated(self.model, 0.0, **self.limits)
-
-    @property
-    def needs_pitch(self) -> bool:
-        """Whether that would exceed the rated power."""
-        return self.kept_by_rule and exceeds_rated(self.model, self.gamma_0, **self.limits)
+METHODS: dict[str, YawMethod] = {"algorithm-1": face_or_hold}
+DEFAULT_METHOD = "algorithm-1"
 
 
 def plan_yaw(
     farm: Farm,
     wind: Wind,
     *,
-    method: str = "nlp",
+    method: str = DEFAULT_METHOD,
+    steering: Steering | None = None,
     nacelle: float | Sequence[float] | None = None,
-    air_density: float = AIR_DENSITY,
+    air_density: float = STANDARD_AIR_DENSITY,
     time_limit: float = 60.0,
     seed: int = 0,
 ) -> Result[YawPlan]:
-    """Set every turbine's yaw, pitch and tip-speed ratio for the most power up to rated.
-
-    Of the yaws that deliver the same power, the nearest to the nacelle's present direction is
-    taken. Below cut-in and from cut-out on turbines are parked: feathered, with their yaw held.
+    """Turn the rotors of a farm so that, under each other's wakes, they deliver the most power.
 
     Parameters
     ----------
     farm
-        The wind farm; wakes between its turbines are not modelled.
+        The wind farm.
     wind
-        The steady wind.
+        The steady wind, or the one about which it scatters.
     method
-        ``"nlp"`` solves the program of :mod:`formulations.turbine_yaw`, ``"algorithm-1"`` is the
-        paper's rule, :mod:`windopt.heuristics.algorithm_1`.
+        ``"nlp"`` solves the program of :mod:`formulations.farm_yaw` from several starts,
+        ``"serial-refine"`` is FLORIS's heuristic, ``"algorithm-1"`` the paper's rule, which does
+        not know of wakes.
+    steering
+        Turbulence, bounds, the wind's scatter and the farm's cap; FLORIS's usual ones by default.
     nacelle
         Where the nacelles face at present, clockwise from north [rad]: one direction for all
         turbines, or one for each. ``None``: into the wind.
     air_density
         Rho [kg/m3].
     time_limit
-        Wall-clock limit [s]. Turbines not decided by then take the set-point of the paper's rule.
+        Wall-clock limit [s].
     seed
-        Seed of further starts, drawn where the first does not reach the bound.
+        Seed of further starts.
 
     Raises
     ------
@@ -142,117 +90,64 @@ def plan_yaw(
     if isnan(time_limit) or time_limit < 0:
         raise InvalidInput("time_limit", ">= 0 s", time_limit)
     require_positive("air_density", air_density)
-
-    misalignments = _misalignments(len(farm), wind, nacelle)
-    cases = [
-        _Case(turbine.type, gamma_0, wind.speed, air_density)
-        for turbine, gamma_0 in zip(farm.turbines, misalignments, strict=True)
-    ]
-    points = {case: case.by_rule() for case in cases}
-    if method == "nlp":
-        status, reason = _improve(points, begin + time_limit, seed)
-    else:
-        status, reason = Status.FEASIBLE, _verdict(cases)
-
-    set_points = tuple(
-        _set_point(name, wind, points[case], case.maximum)
-        for name, case in zip(farm.names, cases, strict=True)
-    )
-    bound = sum(point.maximum for point in set_points)
-    plan = YawPlan(farm, wind, set_points, power_baseline=bound, air_density=air_density)
+    steering = steering or Steering()
+    present = np.array(present_misalignments(len(farm), wind, nacelle))
+    problem = yaw_problem(farm, wind, steering, curve_of, air_density=air_density, present=present)
+    found = METHODS[method](problem, time_limit=time_limit, seed=seed)
+    gamma = _judged(problem, found.solution, keep=method == "algorithm-1")
+    plan = _plan(farm, wind, problem, steering, gamma)
+    bound = min(problem.bound, found.bound) if found.bound >= plan.power else problem.bound
+    source = found.bound_source if bound < problem.bound else BOUND_SOURCE
+    status = found.status
+    if status in (Status.NO_SOLUTION, Status.INFEASIBLE):
+        status = Status.FEASIBLE
     if bound - plan.power <= GAP * bound and status is not Status.INTERRUPTED:
         status = Status.OPTIMAL
     runtime = perf_counter() - begin
-    return Result(status, plan, plan.power, bound, runtime, BOUND_SOURCE, reason)
+    return Result(status, plan, plan.power, bound, runtime, source, found.reason)
 
 
-def _misalignments(n: int, wind: Wind, nacelle: float | Sequence[float] | None) -> list[float]:
-    """Return the present misalignment of each of ``n`` turbines [rad], in [-pi, pi)."""
-    if nacelle is None:
-        return [0.0] * n
-    directions: NDArray[np.float64] = np.asarray(nacelle, dtype=float)
-    if directions.shape not in ((), (n,)):
-        raise InvalidInput("nacelle", f"to be one direction or {n}", directions.shape)
-    if not np.isfinite(directions).all():
-        raise InvalidInput("nacelle", "to be finite", nan)
-    turned = (remainder(wind.theta_met - d, 2 * pi) for d in np.broadcast_to(directions, n))
-    return [gamma if gamma < pi else -pi for gamma in turned]
+def curve_of(type_: TurbineType) -> PowerCurve:
+    """Return a turbine's power curve, from its C_p model where none is published."""
+    name = type_.power_coefficient
+    if type_.curve is None and name not in MODELS:
+        raise InvalidInput("power_coefficient", f"to be one of {', '.join(MODELS)}", repr(name))
+    return type_.curve or type_.curve_by(MODELS[name].best().C_p)
 
 
-def _improve(points: dict[_Case, OperatingPoint], deadline: float, seed: int) -> tuple[Status, str]:
-    """Replace the operating points of running turbines by those of the program."""
-    left = ""
-    for case in points:
-        if not case.running:
-            continue
-        with _CASADI:
-            found = _solve(case, deadline, seed)
-        if found.solution is not None:
-            points[case] = found.solution
-        else:
-            left = f"Some turbines follow the paper's rule. {found.reason}".strip()
-        if found.status is Status.INTERRUPTED:
-            return found.status, "Turbines not decided before the stop follow the paper's rule."
-    return (Status.FEASIBLE if left else Status.LOCALLY_OPTIMAL), left
+def _judged(problem: YawProblem, found: Floats | None, *, keep: bool) -> Floats:
+    """Return what a method found, or facing the wind where that is better or nothing was found."""
+    facing = problem.facing
+    if found is None:
+        return facing
+    better = not keep and farm_power(problem, facing) > farm_power(problem, found)
+    return facing if better else found
 
 
-def _solve(case: _Case, deadline: float, seed: int) -> Result[OperatingPoint]:
-    """Solve one turbine's program, from further starts until one reaches the bound."""
-    program = _program(case.type, case.rho)
-    program.opti.set_value(program.w, case.w)
-    program.opti.set_value(program.gamma_0, case.gamma_0)
-    best: Result[OperatingPoint] | None = None
-    for start in _starts(program, seed):
-        result = nonlinear.solve(program, starts=[start], time_limit=deadline - perf_counter())
-        x = result.solution
-        found = result.carrying(None if x is None else case.facing(float(x[0])))
-        if best is None or _power(found) > _power(best):
-            best = found
-        stopped = found.status is Status.INTERRUPTED or perf_counter() >= deadline
-        if stopped or _power(best) >= (1 - GAP) * case.maximum:
-            break
-    assert best is not None  # there is at least one start
-    return best
-
-
-def _power(result: Result[OperatingPoint]) -> float:
-    return -1.0 if result.solution is None else result.solution.power
-
-
-@lru_cache(maxsize=64)
-def _program(turbine_type: TurbineType, rho: float) -> TurbineYaw:
-    """Build the program of a turbine type once, for all winds to come."""
-    model = MODELS[turbine_type.power_coefficient]
-    return turbine_yaw(model, rho=rho, A=turbine_type.swept_area, p_rated=turbine_type.rated_power)
-
-
-def _starts(program: TurbineYaw, seed: int) -> Iterator[NDArray[np.float64]]:
-    yield program.start
-    rng = np.random.default_rng(seed)
-    low, high = np.array([(-pi / 2, pi / 2), TIP_SPEED_RATIO, PITCH, (0, 1), (0, 1)]).T
-    for _ in range(FURTHER_STARTS):
-        yield rng.uniform(low, high)
-
-
-def _set_point(name: str, wind: Wind, point: OperatingPoint, maximum: float) -> SetPoint:
-    return SetPoint(
-        turbine=name,
-        nacelle=(wind.theta_met - point.gamma) % (2 * pi) % (2 * pi),  # -1e-17 % 2 pi is 2 pi
-        misalignment=point.gamma,
-        pitch=radians(point.beta),
-        tip_speed_ratio=point.lam,
-        wind_speed=wind.speed,
-        power=point.power,
-        maximum=maximum,
-    )
-
-
-def _verdict(cases: Sequence[_Case]) -> str:
-    """Say what the paper's rule did, turbine by turbine."""
-    kept = [case for case in cases if case.kept_by_rule]
-    wasted = sum(case.maximum - case.by_rule().power for case in kept)
-    exceeding = sum(case.needs_pitch for case in kept)
-    return (
-        f"The paper's rule kept the old yaw of {len(kept)} of {len(cases)} turbines, which wastes "
-        f"{wasted / 1e6:.6g} MW; {exceeding} would exceed their rated power without pitch control."
+def _plan(
+    farm: Farm, wind: Wind, problem: YawProblem, steering: Steering, gamma: Floats
+) -> YawPlan:
+    """Return the set-points of these misalignments, as the exact model judges them."""
+    judged = expected_yield(problem, gamma)
+    columns = gamma, judged.speeds, judged.powers, problem.weights @ problem.unwaked
+    rows = zip(*(column.tolist() for column in columns), strict=True)
+    return YawPlan(
+        farm,
+        wind,
+        tuple(
+            SetPoint(
+                name,
+                nacelle=(wind.theta_met - angle) % (2 * pi) % (2 * pi),  # -1e-17 % 2 pi is 2 pi
+                misalignment=angle,
+                pitch=None,
+                tip_speed_ratio=None,
+                wind_speed=speed,
+                power=power,
+                maximum=maximum,
+            )
+            for name, (angle, speed, power, maximum) in zip(farm.names, rows, strict=True)
+        ),
+        power_baseline=float(farm_power(problem, np.zeros(len(farm)))),
+        air_density=problem.air_density,
+        steering=steering,
     )

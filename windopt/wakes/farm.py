@@ -188,3 +188,28 @@ def _powers(problem: YawProblem, speeds: Floats, gamma: Floats, kind: NDArray[np
         v = density * speeds * np.cos(gamma) ** (curve.yaw_exponent / 3)
         powers = np.where(kind == k, curve.power(v), powers)
     return powers
+
+
+@dataclass(frozen=True, eq=False)
+class Yield:
+    """What the turbines feel and deliver in the mean over the winds, each of shape ``(n,)``.
+
+    Parameters
+    ----------
+    speeds
+        Wind speed at each rotor [m/s].
+    powers
+        Of each turbine [W], curtailed in proportion wherever the farm's cap asks for it.
+    """
+
+    speeds: Floats
+    powers: Floats
+
+
+def expected_yield(problem: YawProblem, yaw: Floats) -> Yield:
+    """Return the weighted mean over the winds of one set of misalignments [rad], shape ``(n,)``."""
+    found = flow(problem, yaw)
+    total = found.powers.sum(axis=1)
+    kept = np.minimum(1.0, problem.farm_cap / np.maximum(total, 1e-300))
+    weights = problem.weights
+    return Yield(weights @ found.speeds, (weights * kept) @ found.powers)
