@@ -42,9 +42,7 @@ def test_a_turbine_of_ones_own_is_read(tmp_path):
 
 
 def test_what_is_no_turbine_is_named(tmp_path):
-    with pytest.raises(
-        InvalidInput, match=r"turbine to be a YAML file or one of SG 8"
-    ):
+    with pytest.raises(InvalidInput, match=r"turbine to be a YAML file or one of SG 8"):
         load_turbine_type("V164")
     (tmp_path / "other.yaml").write_text("name: other\n")
     with pytest.raises(InvalidInput, match=r"other\.yaml to hold FLORIS's"):

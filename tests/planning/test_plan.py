@@ -15,7 +15,7 @@ from windopt.errors import InvalidInput
 from windopt.forecasting.persistence import Persistence
 from windopt.planning.plan import FORECASTERS, plan
 from windopt.planning.routing_methods import METHODS
-from windopt.planning.yaw import plan_yaw
+from windopt.planning.turbine_yaw import plan_turbine_yaw
 from windopt.result import Status
 
 FARM = Farm("row", tuple(Turbine(f"T{i}", 600.0 * i, 0.0) for i in range(5)))
@@ -78,9 +78,9 @@ def test_set_points_and_flights_share_the_time_limit(monkeypatch):
 
     def slow(*arguments, time_limit, **options):
         limits.append(time_limit)
-        return plan_yaw(*arguments, time_limit=time_limit, **options)
+        return plan_turbine_yaw(*arguments, time_limit=time_limit, **options)
 
-    monkeypatch.setattr("windopt.planning.plan.plan_yaw", slow)
+    monkeypatch.setattr("windopt.planning.plan.plan_turbine_yaw", slow)
     plan(FARM, FLEET, STRONG, forecaster="persistence", time_limit=20.0)
     assert len(limits) == 8
     assert max(limits) <= 10.0
@@ -92,10 +92,10 @@ def test_ctrl_c_ends_the_whole_plan(monkeypatch):
 
     def stopped(*arguments, time_limit, **options):
         limits.append(time_limit)
-        result = plan_yaw(*arguments, time_limit=time_limit, **options)
+        result = plan_turbine_yaw(*arguments, time_limit=time_limit, **options)
         return replace(result, status=Status.INTERRUPTED) if len(limits) == 2 else result
 
-    monkeypatch.setattr("windopt.planning.plan.plan_yaw", stopped)
+    monkeypatch.setattr("windopt.planning.plan.plan_turbine_yaw", stopped)
     made = plan(FARM, FLEET, STRONG, forecaster="persistence")
     assert limits[1] > 0.0
     assert limits[2:] == [0.0] * 6
