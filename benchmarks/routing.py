@@ -12,7 +12,7 @@ from windopt.domain.plan import InspectionPlan
 from windopt.errors import InvalidInput
 from windopt.io.optiwindnet import optiwindnet_sizes
 from windopt.planning.inspection import plan_inspection
-from windopt.planning.routing_methods import METHODS, RoutingMethod
+from windopt.planning.routing_methods import METHODS, OwnMethod
 from windopt.result import Moment, Result
 
 RIVALS = {
@@ -64,8 +64,8 @@ def _instances(chosen: str) -> Iterator[Inspection]:
         yield Inspection(handle, speed, direction, dwell)
 
 
-def method(name: str) -> RoutingMethod:
-    """Return a method of windopt, a rival, or what ``module:function`` calls.
+def method(name: str) -> str | OwnMethod:
+    """Return the name of a method of windopt, a rival, or what ``module:function`` calls.
 
     Raises
     ------
@@ -73,7 +73,7 @@ def method(name: str) -> RoutingMethod:
         If there is no such method.
     """
     if name in METHODS:
-        return METHODS[name]
+        return name
     module, _, function = RIVALS.get(name, name).partition(":")
     try:
         return as_method(getattr(import_module(module), function))

@@ -4,6 +4,7 @@ That takes the instance's times for granted, which all methods are given alike; 
 right for a farm and a wind is what :mod:`windopt.checking` asks of a plan.
 """
 
+from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import wraps
@@ -192,8 +193,8 @@ def as_method(method: Formulation | Method) -> Method:
 
     Returns
     -------
-    A method ``f(instance, gap=..., time_limit=..., seed=..., progress=...)``, as those of
-    :data:`windopt.planning.routing_methods.METHODS`.
+    A method ``f(instance, gap=..., time_limit=..., seed=..., progress=...)``, as
+    :func:`windopt.plan_inspection` takes it.
     """
     parameters = signature(method).parameters
     if next(iter(parameters), None) != "instance":
@@ -219,6 +220,7 @@ def _method_of(formulation: Formulation) -> Method:
         seed: int = 0,
         progress: Progress | None = None,
     ) -> Result[Routes]:
+        instance.require_all("a formulation")
         deadline = perf_counter() + time_limit
         program = formulation(instance.t, instance.t_max, allowed=instance.allowed)
         left = max(0.0, deadline - perf_counter())
@@ -236,15 +238,19 @@ def faults(instance: RoutingInstance, result: Result[Routes]) -> list[str]:
     if result.solution is None:
         return []
     found = []
-    visited = sorted(i for route in result.solution for i in route.turbines)
-    if visited != list(range(len(instance.turbines))):
+    visits = Counter(i for route in result.solution for i in route.turbines)
+    missing = len(visits) < len(instance.turbines) and instance.prize is None
+    if missing or visits.total() > len(visits):
         found.append("not every turbine is visited once")
+    sent = Counter(route.station for route in result.solution)
+    if instance.max_flights is not None and any(sent[d] > instance.max_flights[d] for d in sent):
+        found.append("a station flies more often than it can")
     for route in result.solution:
         if instance.duration(route) > instance.t_max[route.station] * (1 + 1e-9):
             found.append(f"the flight {route} is longer than t_max")
         if not instance.allowed[route.station, list(route.turbines)].all():
             found.append(f"the flight {route} visits a turbine its station may not serve")
-    if not isclose(result.objective, instance.total(result.solution), rel_tol=1e-6):
+    if not isclose(result.objective, instance.cost(result.solution), rel_tol=1e-6):
         found.append("the objective is not the total time of the flights")
     if result.bound > result.objective * (1 + 1e-6):
         found.append("the bound is above the objective")

@@ -8,7 +8,7 @@ import pytest
 from windopt.checking import check
 from windopt.domain.farm import Farm
 from windopt.domain.fleet import Fleet, Station, Uav
-from windopt.domain.plan import Flight, InspectionPlan, SpeedRule, Unreachable
+from windopt.domain.plan import Flight, InspectionPlan, LeftOut, SpeedRule, Unreachable
 from windopt.domain.turbine import Turbine
 from windopt.domain.wind import Wind
 from windopt.result import Result, Status
@@ -42,6 +42,16 @@ def test_a_plan_worked_out_on_paper_passes():
     assert report.passed, report.violations
     assert report.flights == 1
 
+
+WORTH = (50.0, 60.0, 70.0, 80.0)
+CHOICE = replace(
+    PLAN,
+    fleet=Fleet((replace(FLEET.stations[0], max_flights=1), FLEET.stations[1])),
+    flights=(replace(ROUND, turbines=("A1",), legs=(100.0, 100.0), duration=230.0),),
+    worth=WORTH,
+    left_out=(LeftOut("A2", "no flight"), LeftOut("B1", "no flight")),
+    assignment=(("S1",), ("S1", "S2"), ("S2",), ("S1",)),
+)
 
 MUTANTS = {
     "neither visited nor listed": replace(
@@ -82,12 +92,44 @@ MUTANTS = {
     "said to last inf s": broken(duration=float("inf")),
     "said to last -640 s": broken(duration=-640.0),
     "the wind of 9.50 m/s is above": replace(PLAN, wind=Wind.from_met(9.5, 90.0)),
+    "left out, though none has a worth": replace(CHOICE, worth=None),
+    "3 worths for 4 turbines": replace(CHOICE, worth=WORTH[1:]),
+    "a worth is negative": replace(CHOICE, worth=(-1.0, *WORTH[1:])),
+    "visited though listed as left out": replace(
+        CHOICE, left_out=(*CHOICE.left_out, LeftOut("A1", ""))
+    ),
+    "both as unreachable and as left out": replace(
+        CHOICE, left_out=(*CHOICE.left_out, LeftOut("C1", ""))
+    ),
+    "listed as left out 2 times": replace(CHOICE, left_out=(*CHOICE.left_out, LeftOut("B1", ""))),
+    "B1 is neither visited nor listed": replace(CHOICE, left_out=CHOICE.left_out[:1]),
+    "S1 flies 1 times, 0 are possible": replace(
+        CHOICE, fleet=Fleet((replace(FLEET.stations[0], max_flights=0), FLEET.stations[1]))
+    ),
+    "inspected from S1, not its own station": replace(CHOICE, assignment=(("S2",),) * 4),
+    "station S9, assigned to a turbine": replace(CHOICE, assignment=(("S1", "S9"),) * 4),
+    "assigned to 3 of 4 turbines": replace(CHOICE, assignment=(("S1",),) * 3),
 }  # fmt: skip
 
 
 @pytest.mark.parametrize("sentence", MUTANTS)
 def test_a_broken_plan_is_rejected(sentence):
     assert any(sentence in violation for violation in check(MUTANTS[sentence]).violations)
+
+
+def test_turbines_left_out_cost_what_they_are_worth():
+    result = Result(Status.FEASIBLE, CHOICE, 230.0 + 60.0 + 70.0, 0.0, 0.1)
+    report = check(result)
+    assert report.passed, report.violations
+    assert not check(replace(result, objective=230.0)).passed
+
+
+def test_a_turbine_out_of_its_own_stations_reach_is_unreachable():
+    plan = replace(
+        PLAN, unreachable=(FAR, Unreachable("A1", "")), flights=(), assignment=(("S2",),) * 4
+    )
+    near = [v for v in check(plan).violations if "A1" in v]
+    assert near == ["turbine A1 is listed as unreachable, but S2 reaches it"]
 
 
 def test_two_flights_of_one_station_pass():

@@ -19,6 +19,7 @@ from windopt.domain.fleet import Fleet, Station, Uav
 from windopt.domain.plan import (
     Flight,
     InspectionPlan,
+    LeftOut,
     Plan,
     SetPoint,
     SpeedRule,
@@ -121,6 +122,23 @@ def test_the_schema_is_one():
 
 def test_an_inspection_is_read_back_exactly():
     assert back(FLOWN) == FLOWN
+
+
+def test_what_was_left_out_and_assigned_is_read_back_exactly():
+    first, second = FLEET.stations
+    plan = replace(
+        INSPECTION,
+        fleet=Fleet((replace(first, max_flights=1), second)),
+        flights=(replace(INSPECTION.flights[0], turbines=("A1",)),),
+        worth=(100.0, 1 / 3, 5.0),
+        left_out=(LeftOut("C3", "No flight is left."),),
+        assignment=(("S1",), ("S1", "S2"), ("S2",)),
+    )
+    result = FLOWN.carrying(plan)
+    record = record_of(result)
+    VALIDATOR.validate(record)
+    assert (record["left_out"], record["worth"]["C3"]) == (["C3"], 5.0)
+    assert back(result) == result
 
 
 def test_set_points_are_read_back_but_for_the_last_digits_of_angles():

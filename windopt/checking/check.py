@@ -66,7 +66,7 @@ def _promises(result: Result[Any]) -> Iterator[str]:
     """Objective, bound and status, against the plan and each other."""
     plan = result.found()
     flights = isinstance(plan, InspectionPlan)
-    value = plan.duration if flights else plan.power
+    value = plan.cost if flights else plan.power
     if not isclose(result.objective, value, rel_tol=TOLERANCE, abs_tol=TOLERANCE):
         yield f"the objective is said to be {result.objective:.9g}, the plan's is {value:.9g}"
     slack = TOLERANCE * max(1.0, abs(value))

@@ -1,11 +1,11 @@
 """Checks of inspection flights: who is visited, how long it takes, and at what speeds."""
 
-from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 from math import hypot, isclose, isfinite
 
+from windopt.checking.coverage import assigned, coverage, flights_sent, worths
 from windopt.checking.legs import Displacement, airspeed, least_time, time_by_the_papers_rule
 from windopt.checking.report import Report
 from windopt.domain.fleet import Station
@@ -61,33 +61,14 @@ class _Site:
 def check_inspection(plan: InspectionPlan) -> Report:
     """Recompute every flight of a plan."""
     site = _Site.of(plan)
-    violations = [*_coverage(plan, site), *_dwells(plan)]
+    violations = [*coverage(plan, site.within_reach), *_dwells(plan)]
+    violations += [*worths(plan), *flights_sent(plan), *assigned(plan)]
     warnings: list[str] = []
     for number, flight in enumerate(plan.flights, 1):
         subject = f"flight {number} from {flight.station}"
         violations += [f"{subject}: {sentence}" for sentence in _flight(flight, site)]
         warnings += [f"{subject}: {sentence}" for sentence in _paper_speeds(flight, site)]
     return Report(tuple(violations), tuple(warnings), flights=len(plan.flights))
-
-
-def _coverage(plan: InspectionPlan, site: _Site) -> Iterator[str]:
-    """Every reachable turbine once, the others listed, and nothing else."""
-    visits = Counter(name for flight in plan.flights for name in flight.turbines)
-    listed = Counter(left_out.turbine for left_out in plan.unreachable)
-    for name in sorted((visits | listed).keys() - site.places.keys()):
-        yield f"turbine {name} is not one of the farm's"
-    for name in plan.farm.names:
-        if visits[name] > 1:
-            yield f"turbine {name} is visited {visits[name]} times"
-        if listed[name] > 1:
-            yield f"turbine {name} is listed as unreachable {listed[name]} times"
-        if not visits[name] and not listed[name]:
-            yield f"turbine {name} is neither visited nor listed as unreachable"
-        if visits[name] and listed[name]:
-            yield f"turbine {name} is visited though listed as unreachable"
-        for station in plan.fleet.stations if listed[name] else ():
-            if site.within_reach(name, station):
-                yield f"turbine {name} is listed as unreachable, but {station.name} reaches it"
 
 
 def _dwells(plan: InspectionPlan) -> Iterator[str]:

@@ -55,18 +55,25 @@ class Station:
         Easting and northing in the farm's CRS [m].
     uav
         The make of UAV kept there.
+    max_flights
+        How many flights its UAVs and batteries are good for in the time at hand; any number
+        unless given.
     """
 
     name: str
     x: float
     y: float
     uav: Uav = FALCON_8
+    max_flights: int | None = None
 
     def __post_init__(self) -> None:
         if not self.name:
             raise InvalidInput("station name", "to be a non-empty string", repr(self.name))
         require_finite(f"x of station {self.name}", self.x)
         require_finite(f"y of station {self.name}", self.y)
+        most = self.max_flights
+        if most is not None and not (most >= 0 and most == int(most)):
+            raise InvalidInput(f"max_flights of station {self.name}", "a whole number >= 0", most)
 
 
 @dataclass(frozen=True)
@@ -84,6 +91,11 @@ class Fleet:
     def names(self) -> tuple[str, ...]:
         """Names of the stations, in order."""
         return tuple(station.name for station in self.stations)
+
+    @property
+    def limited(self) -> bool:
+        """Whether a station may run out of flights."""
+        return any(station.max_flights is not None for station in self.stations)
 
     def __len__(self) -> int:
         return len(self.stations)

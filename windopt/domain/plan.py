@@ -123,8 +123,18 @@ class Unreachable:
 
 
 @dataclass(frozen=True)
+class LeftOut:
+    """A turbine within reach that a plan does not inspect, and why."""
+
+    turbine: str
+    reason: str
+
+
+@dataclass(frozen=True)
 class InspectionPlan:
     """Flights that visit every turbine within reach once, in one steady wind.
+
+    Where turbines have a worth, those that cost more, or find no flight, may be left out.
 
     Parameters
     ----------
@@ -133,7 +143,15 @@ class InspectionPlan:
     rule
         How the wind bends the speed over ground.
     unreachable
-        The turbines left out.
+        The turbines that no UAV can inspect.
+    worth
+        What inspecting each turbine is worth [s of flight], in the farm's order; ``None`` where
+        all within reach must be inspected.
+    left_out
+        The turbines within reach that are not inspected.
+    assignment
+        Names of the stations that may inspect each turbine, in the farm's order; ``None`` where
+        any may.
     """
 
     farm: Farm
@@ -143,11 +161,27 @@ class InspectionPlan:
     flights: tuple[Flight, ...]
     unreachable: tuple[Unreachable, ...] = ()
     rule: SpeedRule = SpeedRule.EXACT
+    worth: tuple[float, ...] | None = None
+    left_out: tuple[LeftOut, ...] = ()
+    assignment: tuple[tuple[str, ...], ...] | None = None
 
     @property
     def duration(self) -> float:
         """Time of all flights together [s]."""
         return sum(flight.duration for flight in self.flights)
+
+    @property
+    def forgone(self) -> float:
+        """What inspecting the turbines left out is worth [s of flight]."""
+        if self.worth is None:
+            return 0.0
+        worth = dict(zip(self.farm.names, self.worth, strict=False))
+        return sum(worth.get(left.turbine, 0.0) for left in self.left_out)
+
+    @property
+    def cost(self) -> float:
+        """What a plan is chosen by: time of all flights, and what is forgone [s]."""
+        return self.duration + self.forgone
 
 
 @dataclass(frozen=True)

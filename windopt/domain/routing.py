@@ -92,6 +92,19 @@ class RoutingInstance:
         """Whether station d can inspect turbine i and be back in time, shape ``(k, n)``."""
         return self.allowed & (self.round_trip <= self.t_max[:, None])
 
+    def require_all(self, method: str) -> None:
+        """Refuse an instance from which turbines may be left out.
+
+        Raises
+        ------
+        InvalidInput
+            If it has prizes; ``method`` says who cannot weigh them.
+        """
+        if self.prize is not None:
+            raise InvalidInput(
+                "method", "exact where flights are few or turbines have a worth", method
+            )
+
     def duration(self, route: Route) -> float:
         """Time from take-off to landing [s]."""
         nodes = (0, *(i + 1 for i in route.turbines), 0)

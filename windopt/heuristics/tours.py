@@ -71,6 +71,7 @@ def fly_tours(
         How many turbines were reassigned, for the reason.
     """
     began = perf_counter()
+    instance.require_all("this heuristic")
     bound = least_total_time(instance)
     uavs = np.unique(assigned).tolist()
     routes: list[Route] = []

@@ -13,6 +13,7 @@ from windopt.domain.fleet import Fleet, Station, Uav
 from windopt.domain.plan import (
     Flight,
     InspectionPlan,
+    LeftOut,
     Plan,
     SetPoint,
     SpeedRule,
@@ -102,6 +103,7 @@ def _inspection(record: Entry, farm: Farm) -> InspectionPlan:
     unreachable = record["unreachable"].texts
     _refuse_others(dwell, farm.names, "to name a turbine of the farm")
     _refuse_others(reasons, unreachable, "to name an unreachable turbine")
+    worth, left_out = _left_out(record, farm)
     return InspectionPlan(
         farm,
         Fleet(tuple(_station(entry) for entry in record["stations"])),
@@ -110,7 +112,27 @@ def _inspection(record: Entry, farm: Farm) -> InspectionPlan:
         tuple(_flight(entry) for entry in record["flights"]),
         tuple(Unreachable(name, reasons[name].text) for name in unreachable),
         _choice(record["rule"], SpeedRule),
+        worth,
+        left_out,
+        _assignment(record["assignment"], farm) if "assignment" in record else None,
     )
+
+
+def _left_out(record: Entry, farm: Farm) -> tuple[tuple[float, ...] | None, tuple[LeftOut, ...]]:
+    """Read what turbines are worth, where it is said, and which are left out."""
+    if "worth" not in record:
+        return None, ()
+    worth, reasons = record["worth"], record["left_out_reasons"]
+    names = record["left_out"].texts
+    _refuse_others(worth, farm.names, "to name a turbine of the farm")
+    _refuse_others(reasons, names, "to name a turbine that is left out")
+    left_out = tuple(LeftOut(name, reasons[name].text) for name in names)
+    return tuple(worth[name].number for name in farm.names), left_out
+
+
+def _assignment(entry: Entry, farm: Farm) -> tuple[tuple[str, ...], ...]:
+    _refuse_others(entry, farm.names, "to name a turbine of the farm")
+    return tuple(tuple(entry[name].texts) for name in farm.names)
 
 
 def _refuse_others(entry: Entry, names: Collection[str], expected: str) -> None:
@@ -121,7 +143,16 @@ def _refuse_others(entry: Entry, names: Collection[str], expected: str) -> None:
 
 
 def _station(entry: Entry) -> Station:
-    return Station(entry["id"].text, entry["x"].number, entry["y"].number, _uav(entry["uav"]))
+    most = entry["max_flights"].number if "max_flights" in entry else None
+    if most is not None and most != int(most):
+        raise entry["max_flights"].refuse("to be a whole number")
+    return Station(
+        entry["id"].text,
+        entry["x"].number,
+        entry["y"].number,
+        _uav(entry["uav"]),
+        None if most is None else int(most),
+    )
 
 
 def _uav(entry: Entry) -> Uav:

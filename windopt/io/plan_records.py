@@ -89,7 +89,22 @@ def _inspection(plan: InspectionPlan) -> Record:
         "unreachable": [left_out.turbine for left_out in plan.unreachable],
         "unreachable_reasons": {left.turbine: left.reason for left in plan.unreachable},
         "dwell": dict(zip(plan.farm.names, map(float, plan.dwell), strict=True)),
+        **_choice(plan),
     }
+
+
+def _choice(plan: InspectionPlan) -> Record:
+    """Record what may be left out and who may inspect what, where that was restricted."""
+    record: Record = {}
+    if plan.worth is not None:
+        record["worth"] = dict(zip(plan.farm.names, map(float, plan.worth), strict=True))
+        record["left_out"] = [left_out.turbine for left_out in plan.left_out]
+        record["left_out_reasons"] = {left.turbine: left.reason for left in plan.left_out}
+        record["duration"] = float(plan.duration)
+    if plan.assignment is not None:
+        names = zip(plan.farm.names, plan.assignment, strict=True)
+        record["assignment"] = {turbine: list(stations) for turbine, stations in names}
+    return record
 
 
 def _yaw(plan: YawPlan) -> Record:
@@ -134,6 +149,7 @@ def _station(station: Station) -> Record:
         "x": float(station.x),
         "y": float(station.y),
         "uav": _uav(station.uav),
+        **({} if station.max_flights is None else {"max_flights": int(station.max_flights)}),
     }
 
 

@@ -12,16 +12,25 @@ from windopt.domain.farm import Farm
 from windopt.domain.fleet import Fleet
 from windopt.domain.plan import Flight, InspectionPlan, SpeedRule
 from windopt.domain.routing import Route, RoutingInstance
-from windopt.domain.turbine import require_not_negative
 from windopt.domain.wind import Wind
 from windopt.errors import FailedCheck, InvalidInput
+from windopt.planning.assignment import Assignment, assigned_to, stations_of_turbines
 from windopt.planning.reach import (
     dwell_per_turbine,
     restricted,
     routing_instance,
     unreachable_turbines,
 )
-from windopt.planning.routing_methods import METHODS, RoutingMethod
+from windopt.planning.routing_methods import (
+    IMPROVES,
+    METHODS,
+    OwnMethod,
+    RoutingMethod,
+    by_keywords,
+)
+from windopt.planning.search_options import MEMORY, SearchOptions
+from windopt.planning.start import Start, inspection_of, routes_of
+from windopt.planning.worth import turbines_left_out, weighed, worth_per_turbine
 from windopt.result import Result, Status
 from windopt.trace import Progress, Recorder
 
@@ -33,31 +42,51 @@ def plan_inspection(
     fleet: Fleet,
     wind: Wind,
     *,
-    method: str | RoutingMethod = DEFAULT_METHOD,
+    method: str | OwnMethod = DEFAULT_METHOD,
     dwell: float | Sequence[float] = 0.0,
     rule: SpeedRule | str = SpeedRule.EXACT,
+    worth: float | Sequence[float] | None = None,
+    assignment: Assignment | None = None,
+    start: Start | None = None,
     gap: float = 0.0,
     time_limit: float = 60.0,
+    memory: float = MEMORY,
     seed: int = 0,
     progress: Progress | None = None,
 ) -> Result[InspectionPlan]:
     """Plan flights that visit every turbine within reach once, in the least total time.
+
+    Where a station has a limited number of flights, or turbines have a worth, some may be left
+    out; only the method ``exact`` weighs that.
 
     Parameters
     ----------
     farm, fleet, wind
         What to inspect, from where, and the steady wind to fly in.
     method
-        One of :data:`windopt.planning.routing_methods.METHODS`, or a function of its own with
-        their signature.
+        One of :data:`windopt.planning.routing_methods.METHODS`, or a function of its own, as
+        :class:`windopt.planning.routing_methods.OwnMethod` is.
     dwell
         Time spent at each turbine [s]: one for all, or one each in the farm's order.
     rule
         How the wind bends the speed over ground: ``"exact"`` or ``"paper"``.
+    worth
+        What inspecting a turbine is worth [s of flight]: one for all, or one each in the farm's
+        order. Unless given, every turbine must be inspected; or, where flights are limited, as
+        many as possible first, then the least time. For priorities see
+        :func:`windopt.planning.worth.worth_of_priorities`.
+    assignment
+        Which stations may inspect which turbine: ``"nearest"``, or a station or several by
+        turbine. Any station may inspect any turbine unless given.
+    start
+        A plan to begin with, perhaps for another wind; what can no longer be flown of it is
+        repaired or dropped. Not for heuristics.
     gap
         Relative gap at which an exact method may stop [-].
     time_limit
         Wall-clock limit [s].
+    memory
+        What the lists of the method ``exact`` may take [bytes].
     seed
         Of whatever the method draws at random.
     progress
@@ -66,47 +95,62 @@ def plan_inspection(
     Returns
     -------
     Result
-        Turbines out of reach are listed in the plan with the reason and the rest is planned;
-        the objective is the total time of all flights [s].
+        Turbines out of reach, and those left out, are listed in the plan with the reason and the
+        rest is planned; the objective is the total time of all flights and the worth of what is
+        left out [s].
 
     Raises
     ------
     InvalidInput
-        If the method or the rule is unknown, or a dwell is negative.
+        If the method or the rule is unknown, a number is negative, a name is not known, or the
+        method cannot do what is asked for.
     FailedCheck
         If the independent checker finds a fault in the plan.
     """
-    start, recorder = perf_counter(), Recorder(progress)
-    require_not_negative("time_limit", time_limit)
-    require_not_negative("gap", gap)
-    solve = _chosen(method)
+    began, recorder = perf_counter(), Recorder(progress)
+    options = SearchOptions(gap, time_limit, seed, memory, progress=recorder)
     rule = _rule(rule)
     dwells = dwell_per_turbine(farm, dwell)
+    worths = worth_per_turbine(farm, fleet, worth)
+    solve = _chosen(method, partial=worths is not None, improves=start is not None)
     everything = routing_instance(farm, fleet, wind, dwell=dwells, rule=rule)
+    assigned = stations_of_turbines(farm, fleet, assignment, everything)
+    everything = weighed(assigned_to(everything, fleet, assigned), fleet, worths)
     unreachable = unreachable_turbines(farm, fleet, wind, everything)
     reached = np.flatnonzero(everything.reachable.any(axis=0)).tolist()
     if reached:
         instance = restricted(everything, reached)
-        left = max(0.0, time_limit - (perf_counter() - start))
-        found = solve(instance, gap=gap, time_limit=left, seed=seed, progress=recorder)
+        if start is not None:
+            routes = routes_of(inspection_of(start), instance, fleet, farm.names, reached)
+            options = replace(options, start=routes)
+        left = max(0.0, time_limit - (perf_counter() - began))
+        found = solve(instance, replace(options, time_limit=left))
     else:
         found = Result(Status.OPTIMAL, (), 0.0, 0.0, 0.0, reason="No turbine is within reach.")
     result: Result[InspectionPlan] = found.carrying(None)
     if found.solution is not None:
         flights = _flights(found.solution, reached, everything, farm, fleet, dwells)
-        plan = InspectionPlan(farm, fleet, wind, dwells, flights, unreachable, rule)
+        names = [farm.names[i] for i in reached]
+        left_out = turbines_left_out(found.solution, instance, names) if reached else ()
+        plan = InspectionPlan(
+            farm, fleet, wind, dwells, flights, unreachable, rule, worths, left_out, assigned
+        )
         result = found.carrying(plan)
         _assert_sound(result)
     trace = recorder.until(result.objective, result.bound)
-    return replace(result, runtime=perf_counter() - start, trace=trace)
+    return replace(result, runtime=perf_counter() - began, trace=trace)
 
 
-def _chosen(method: str | RoutingMethod) -> RoutingMethod:
-    if not isinstance(method, str):
-        return method
-    if method not in METHODS:
+def _chosen(method: str | OwnMethod, *, partial: bool, improves: bool) -> RoutingMethod:
+    """Return a method that can leave turbines out, or begin with a plan, if need be."""
+    name = method if isinstance(method, str) else "a function"
+    if isinstance(method, str) and method not in METHODS:
         raise InvalidInput("method", f"to be one of {', '.join(METHODS)}", repr(method))
-    return METHODS[method]
+    if partial and name != "exact":
+        raise InvalidInput("method", "exact where flights are few or turbines have a worth", name)
+    if improves and name not in IMPROVES:
+        raise InvalidInput("method", f"to be one of {', '.join(IMPROVES)} with a start", name)
+    return METHODS[method] if isinstance(method, str) else by_keywords(method)
 
 
 def _rule(rule: SpeedRule | str) -> SpeedRule:

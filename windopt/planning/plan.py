@@ -15,7 +15,10 @@ from windopt.forecasting.autoregression import LinearAutoregression
 from windopt.forecasting.forecaster import Forecaster
 from windopt.forecasting.lstm import EdgeForecaster
 from windopt.forecasting.persistence import Persistence
+from windopt.planning.assignment import Assignment
 from windopt.planning.inspection import DEFAULT_METHOD, plan_inspection
+from windopt.planning.search_options import MEMORY
+from windopt.planning.start import Start
 from windopt.planning.turbine_yaw import AIR_DENSITY, plan_turbine_yaw
 from windopt.result import Result, Status
 from windopt.trace import Progress
@@ -45,8 +48,12 @@ def plan(
     method: str = DEFAULT_METHOD,
     dwell: float | Sequence[float] = 0.0,
     rule: SpeedRule | str = SpeedRule.EXACT,
+    worth: float | Sequence[float] | None = None,
+    assignment: Assignment | None = None,
+    start: Start | None = None,
     gap: float = 0.0,
     time_limit: float = 60.0,
+    memory: float = MEMORY,
     seed: int = 0,
     progress: Progress | None = None,
 ) -> Plan:
@@ -66,7 +73,7 @@ def plan(
         Methods for set-points and for flights.
     air_density
         Rho [kg/m3], for the set-points.
-    dwell, rule, gap, progress
+    dwell, rule, worth, assignment, start, gap, memory, progress
         As in :func:`windopt.plan_inspection`, for the flights.
     time_limit
         Wall-clock limit of the whole plan [s]. Ctrl-C ends it early: what is left to do is then
@@ -107,8 +114,12 @@ def plan(
         method=method,
         dwell=dwell,
         rule=rule,
+        worth=worth,
+        assignment=assignment,
+        start=start,
         gap=gap,
         time_limit=left,
+        memory=memory,
         seed=seed,
         progress=progress,
     )

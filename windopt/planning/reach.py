@@ -95,12 +95,20 @@ def unreachable_turbines(
     )
 
 
+def _stations_of(fleet: Fleet, wind: Wind, instance: RoutingInstance, i: int) -> Sequence[Station]:
+    """Return the stations that may inspect turbine i, in the wind or if it were weaker."""
+    flies = np.array([_flies(station, wind) for station in fleet.stations])
+    own = instance.allowed[:, i] | ~flies
+    return [station for station, one in zip(fleet.stations, own, strict=True) if one]
+
+
 def _reason(fleet: Fleet, wind: Wind, instance: RoutingInstance, i: int) -> str:
-    if not any(_flies(station, wind) for station in fleet.stations):
-        limit = max(station.uav.wind_max for station in fleet.stations)
+    stations = _stations_of(fleet, wind, instance, i)
+    if not any(_flies(station, wind) for station in stations):
+        limit = max(station.uav.wind_max for station in stations)
         if wind.speed > limit:
             return f"The wind of {wind.speed:.1f} m/s is above the UAVs' limit of {limit:.1f} m/s."
-        fastest = max(station.uav.airspeed for station in fleet.stations)
+        fastest = max(station.uav.airspeed for station in stations)
         return f"The wind of {wind.speed:.1f} m/s is not below the airspeed of {fastest:.1f} m/s."
     round_trip = np.where(instance.allowed[:, i], instance.round_trip[:, i], np.inf)
     excess = round_trip - instance.t_max
@@ -123,6 +131,7 @@ def restricted(instance: RoutingInstance, turbines: Sequence[int]) -> RoutingIns
         t=instance.t[:, nodes[:, None], nodes],
         turbines=instance.turbines[chosen],
         allowed=instance.allowed[:, chosen],
+        prize=None if instance.prize is None else instance.prize[chosen],
     )
 
 

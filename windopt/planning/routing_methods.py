@@ -15,6 +15,7 @@ from windopt.domain.routing import Route, RoutingInstance
 from windopt.heuristics.algorithm_2 import algorithm_2
 from windopt.heuristics.baseline import baseline
 from windopt.heuristics.splitting import split_by_rule
+from windopt.planning.search_options import SearchOptions
 from windopt.result import Result, Status
 from windopt.solving import integer
 from windopt.trace import Progress
@@ -24,7 +25,7 @@ Routes = tuple[Route, ...]
 HEAD_START = 0.2
 """Share of the time limit that Algorithm 2 may use before a formulation begins."""
 
-TOO_LARGE = "To build the program would take too much of the time; this is Algorithm 2's plan."
+TOO_LARGE = "To build the program would take too much of the time; this is the plan to begin with."
 
 ROUNDING = 1e-9
 """Seconds by which two sums of the same legs may differ."""
@@ -36,8 +37,12 @@ TIME_FLOW_PACE, ROUTE_INDEXED_PACE = 100_000, 20_000
 """Arcs that are built for each second of the time limit; half of what is usual."""
 
 
-class RoutingMethod(Protocol):
-    """A way to plan flights."""
+RoutingMethod = Callable[[RoutingInstance, SearchOptions], Result[Routes]]
+"""A way to plan flights that visit every turbine of an instance once."""
+
+
+class OwnMethod(Protocol):
+    """A routing method of one's own, which need know nothing of windopt but the instance."""
 
     def __call__(
         self,
@@ -51,20 +56,28 @@ class RoutingMethod(Protocol):
         """Return routes that visit every turbine of ``instance`` once."""
 
 
-def _heuristic(method: Callable[..., Result[Routes]]) -> RoutingMethod:
-    """Return a heuristic as a routing method; a gap means nothing to it."""
+def by_keywords(method: OwnMethod) -> RoutingMethod:
+    """Return a method of one's own as a routing method."""
 
-    def solve(
-        instance: RoutingInstance,
-        *,
-        gap: float,
-        time_limit: float,
-        seed: int,
-        progress: Progress | None,
-    ) -> Result[Routes]:
-        result = method(instance, time_limit=time_limit, seed=seed)
-        if progress is not None:
-            progress(result.objective, result.bound)
+    def solve(instance: RoutingInstance, options: SearchOptions) -> Result[Routes]:
+        return method(
+            instance,
+            gap=options.gap,
+            time_limit=options.time_limit,
+            seed=options.seed,
+            progress=options.progress,
+        )
+
+    return solve
+
+
+def _heuristic(method: Callable[..., Result[Routes]]) -> RoutingMethod:
+    """Return a heuristic as a routing method; neither gap nor start mean anything to it."""
+
+    def solve(instance: RoutingInstance, options: SearchOptions) -> Result[Routes]:
+        result = method(instance, time_limit=options.time_limit, seed=options.seed)
+        if options.progress is not None:
+            options.progress(result.objective, result.bound)
         return result
 
     return solve
@@ -76,36 +89,41 @@ def _formulation(build: Callable[[RoutingInstance, Result[Routes], float], Any])
     Parameters
     ----------
     build
-        Builds the program of an instance, given Algorithm 2's plan and a time limit, or returns
-        ``None`` where that would take too much of the time.
+        Builds the program of an instance, given the plan it begins with and a time limit, or
+        returns ``None`` where that would take too much of the time.
     """
 
-    def solve(
-        instance: RoutingInstance,
-        *,
-        gap: float,
-        time_limit: float,
-        seed: int,
-        progress: Progress | None,
-    ) -> Result[Routes]:
+    def solve(instance: RoutingInstance, options: SearchOptions) -> Result[Routes]:
         began = perf_counter()
-        first = algorithm_2(instance, time_limit=HEAD_START * time_limit, seed=seed)
+        head_start = HEAD_START * options.time_limit
+        first = algorithm_2(instance, time_limit=head_start, seed=options.seed)
+        first = _or_start(first, instance, options.start)
         if first.status is Status.INTERRUPTED:
             return first
-        program = build(instance, first, time_limit)
+        program = build(instance, first, options.time_limit)
         if program is None:
             return replace(first, reason=f"{TOO_LARGE} {first.reason}".strip())
         found = integer.solve(
             program,
-            gap=gap,
-            time_limit=max(0.0, began + time_limit - perf_counter()),
-            seed=seed,
+            gap=options.gap,
+            time_limit=max(0.0, began + options.time_limit - perf_counter()),
+            seed=options.seed,
             start=program.point(first.found()),
-            progress=progress,
+            progress=options.progress,
         )
         return _better(found.carrying(_routes(program, found)), first)
 
     return solve
+
+
+def _or_start(
+    first: Result[Routes], instance: RoutingInstance, start: Routes | None
+) -> Result[Routes]:
+    """Return the given start in place of the first plan where it is the better one."""
+    if start is None or instance.total(start) >= first.objective:
+        return first
+    objective = instance.total(start)
+    return replace(first, solution=start, objective=objective, reason="")
 
 
 def _routes(program: Any, found: Result[Any]) -> Routes | None:
@@ -145,26 +163,27 @@ def _route_indexed(
     t, n = instance.t, len(instance.turbines)
     merge_at_no_cost = (t[:, 1:, 1:] <= t[:, 1:, :1] + t[:, :1, 1:] + ROUNDING).all()
     routes = min(n, int(2 * first.objective / instance.t_max.min()) + 1) if merge_at_no_cost else n
+    flown = [route.station for route in first.found()]
+    routes = max(routes, *(flown.count(d) for d in range(len(t))))
     if routes * t.size > min(LARGEST, ROUTE_INDEXED_PACE * time_limit):
         return None
     return route_indexed(t, instance.t_max, routes=routes, allowed=instance.allowed)
 
 
-def _exact(
-    instance: RoutingInstance,
-    *,
-    gap: float,
-    time_limit: float,
-    seed: int,
-    progress: Progress | None,
-) -> Result[Routes]:
+def _exact(instance: RoutingInstance, options: SearchOptions) -> Result[Routes]:
     """Solve by column generation, whose compiled loops take a moment to load."""
     from windopt.solving.column_generation import column_generation
 
     found = column_generation(
-        instance, gap=gap, time_limit=time_limit, seed=seed, progress=progress
+        instance,
+        time_limit=options.time_limit,
+        gap=options.gap,
+        seed=options.seed,
+        start=options.start,
+        memory=options.memory,
+        progress=options.progress,
     )
-    return replace(found, asked_gap=gap)
+    return replace(found, asked_gap=options.gap)
 
 
 METHODS: dict[str, RoutingMethod] = {
@@ -176,3 +195,6 @@ METHODS: dict[str, RoutingMethod] = {
     "baseline": _heuristic(baseline),
 }
 """Routing methods by name."""
+
+IMPROVES = ("exact", "time-flow", "route-indexed")
+"""Methods that begin with a plan where one is given."""
