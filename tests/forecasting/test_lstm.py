@@ -13,6 +13,9 @@ from windopt.forecasting.autoregression import LinearAutoregression
 from windopt.forecasting.evaluation import backtest
 from windopt.forecasting.lstm import EdgeForecaster
 from windopt.forecasting.quantisation import Levels
+from windopt.forecasting.targets import wrapped
+from windopt.forecasting.windows import chronological_split
+from windopt.io.built_in import built_in_series
 
 STEPS = [np.timedelta64(5, "m"), np.timedelta64(10, "m")]
 
@@ -55,6 +58,46 @@ def test_shipped_bands_cover_about_what_they_say_on_a_wind_they_never_saw(step):
     found = EdgeForecaster.shipped(step).backtest(gusty(step))["lstm"]
     assert 0.8 < found.mean("speed_in_90").mean() < 0.98
     assert 0.8 < found.mean("direction_in_90").mean() < 0.98
+
+
+def month():
+    """Return the last third of the built-in month, which trained nothing."""
+    return chronological_split(built_in_series())[1]
+
+
+def test_scenarios_keep_the_calibrated_quantiles():
+    forecast = EdgeForecaster.shipped(STEPS[1]).predict(month())
+    paths = forecast.scenarios(20_000, np.random.default_rng(0))
+    speed = np.stack([path.speed for path in paths])
+    turn = wrapped(np.stack([path.theta_met for path in paths]) - forecast.theta_met)
+    quantiles = forecast.quantiles
+    for k, level in enumerate(quantiles.levels):
+        for drawn, asked in (speed, quantiles.speed), (turn, quantiles.turn):
+            spread = asked[:, -1] - asked[:, 0]
+            off = (np.quantile(drawn, level, axis=0) - asked[:, k]) / spread
+            assert np.abs(off).max() < 0.03
+
+
+def test_neighbouring_steps_of_a_scenario_go_together():
+    forecast = EdgeForecaster.shipped(STEPS[0]).predict(gusty(STEPS[0]))
+    speed = np.stack([path.speed for path in forecast.scenarios(5000, np.random.default_rng(0))])
+    correlation = np.corrcoef(speed, rowvar=False)
+    assert (np.diag(correlation, 1) > 0.6).all()
+    assert (np.diff(correlation[0]) < 0).all()
+    a, h = forecast.quantiles.memory[0], np.arange(1, 9)
+    assert correlation[-1] == pytest.approx((h / 8) ** a, abs=0.05)
+
+
+def test_what_came_was_as_likely_as_the_scenarios_said():
+    """The mean over the horizon has the right spread only if the steps hang together."""
+    wind, rng, below = month(), np.random.default_rng(0), []
+    forecaster = EdgeForecaster.shipped(wind.step)
+    for now in range(20, len(wind) - 4, 12):
+        paths = forecaster.predict(wind.part(slice(0, now))).scenarios(200, rng)
+        means = [path.speed.mean() for path in paths]
+        below.append(np.mean(means < wind.speed[now : now + 4].mean()))
+    inside = (np.array(below) > 0.05) & (np.array(below) < 0.95)
+    assert inside.mean() == pytest.approx(0.9, abs=0.08)  # three standard deviations of 120
 
 
 @pytest.mark.parametrize("step", STEPS)
