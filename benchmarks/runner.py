@@ -4,7 +4,9 @@ The same call runs on the processors of this machine (joblib's loky) or on a das
 """
 
 import atexit
+import os
 import threading
+import time
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import AbstractContextManager
 from pathlib import Path
@@ -80,7 +82,8 @@ def _side_by_side(
 ) -> Iterable[tuple[Case, Record]]:
     with _backend(scheduler):
         parallel = Parallel(n_jobs=jobs, batch_size=1, return_as="generator_unordered")
-        yield from parallel(delayed(_watched)(case) for case in cases)
+        home = 0 if scheduler else os.getpid()
+        yield from parallel(delayed(_watched)(case, home) for case in cases)
 
 
 def _backend(scheduler: str) -> AbstractContextManager[Any]:
@@ -98,9 +101,25 @@ def _backend(scheduler: str) -> AbstractContextManager[Any]:
 _this = threading.local()
 
 
-def _watched(case: Case) -> tuple[Case, Record]:
-    """Run a case under the one watch of this thread; a dask worker may have several."""
+def _watched(case: Case, home: int) -> tuple[Case, Record]:
+    """Run a case under the one watch of this thread; a dask worker may have several.
+
+    Parameters
+    ----------
+    home
+        The process without which this one has nothing to do, or 0.
+    """
     if not hasattr(_this, "watch"):
         _this.watch = Watch()
         atexit.register(_this.watch.close)
+        if home not in {0, os.getpid()}:
+            threading.Thread(target=_end_with, args=(home, _this.watch), daemon=True).start()
     return case, _this.watch.run(case) | {"machine": machine()}
+
+
+def _end_with(home: int, watch: Watch) -> None:
+    """End this process soon after the one that started it, which may have been killed."""
+    while os.getppid() == home:
+        time.sleep(1.0)
+    watch.close()
+    os._exit(1)
