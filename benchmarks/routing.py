@@ -27,6 +27,7 @@ DEFAULT_METHODS = {
     "full": ("exact",),
     "growth": ("exact", "time-flow", "pyvrp", "algorithm-2"),
 }
+SETS = tuple(DEFAULT_METHODS)
 TIME_LIMITS = {"small": 10.0, "medium": 60.0, "full": 300.0, "growth": 60.0}
 
 DIRECTIONS = range(0, 360, 45)

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from windopt.planning.turbine_yaw import plan_turbine_yaw
     from windopt.planning.yaw import plan_yaw
     from windopt.result import Result, Status
-    from windopt.solving import solve
+    from windopt.solving import relax, solve
     from windopt.versions import show_versions
 
 __version__ = "0.1.0"
@@ -56,6 +56,7 @@ _ROOMS = {
     "plan_inspection": "windopt.planning.inspection",
     "plan_turbine_yaw": "windopt.planning.turbine_yaw",
     "plan_yaw": "windopt.planning.yaw",
+    "relax": "windopt.solving",
     "show_versions": "windopt.versions",
     "solve": "windopt.solving",
 }
@@ -87,6 +88,7 @@ __all__ = [
     "plan_inspection",
     "plan_turbine_yaw",
     "plan_yaw",
+    "relax",
     "show_versions",
     "solve",
 ]

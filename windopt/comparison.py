@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 from windopt.domain.routing import Route, RoutingInstance
 from windopt.errors import MissingExtra
 from windopt.result import Result, Status
-from windopt.solving import solve
+from windopt.solving import relax, solve
 from windopt.trace import Progress, Recorder
 
 if TYPE_CHECKING:
@@ -131,7 +131,8 @@ def compare(
 ) -> Comparison:
     """Run every method on every instance under one time limit, programs built within it.
 
-    A method that raises an exception has it as its fault and reason, and the others go on.
+    A method that raises an exception has it as its fault and reason, and the others go on. The
+    linear relaxation of a formulation is solved apart, after its run and at no cost to it.
 
     Parameters
     ----------
@@ -175,6 +176,10 @@ def _row(
         result = as_method(method)(instance, **options, progress=recorder)
         trace = recorder.until(result.objective, result.bound)
         result = replace(result, runtime=perf_counter() - began, trace=trace)
+        if not _takes_an_instance(method):
+            result = replace(
+                result, effort=replace(result.effort, lp_bound=_lp_bound(method, instance))
+            )
         return Row(name, title, result, tuple(faults(instance, result)), options["seed"])
     except Exception as error:  # whatever it is, the rows of the other methods stand
         fault = f"{type(error).__name__}: {error}"
@@ -196,10 +201,9 @@ def as_method(method: Formulation | Method) -> Method:
     A method ``f(instance, gap=..., time_limit=..., seed=..., progress=...)``, as
     :func:`windopt.plan_inspection` takes it.
     """
-    parameters = signature(method).parameters
-    if next(iter(parameters), None) != "instance":
+    if not _takes_an_instance(method):
         return _method_of(method)
-    optional = {"gap", "progress"} - set(parameters)
+    optional = {"gap", "progress"} - set(signature(method).parameters)
 
     @wraps(method)
     def run(instance: RoutingInstance, **options: Any) -> Result[Routes]:
@@ -208,6 +212,16 @@ def as_method(method: Formulation | Method) -> Method:
         return found
 
     return run
+
+
+def _takes_an_instance(method: Formulation | Method) -> bool:
+    return next(iter(signature(method).parameters), None) == "instance"
+
+
+def _lp_bound(formulation: Formulation, instance: RoutingInstance) -> float:
+    """Return the value of the linear relaxation as it is stated, which no row has tightened."""
+    program = formulation(instance.t, instance.t_max, allowed=instance.allowed)
+    return relax(program).bound
 
 
 def _method_of(formulation: Formulation) -> Method:

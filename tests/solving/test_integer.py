@@ -16,7 +16,7 @@ from formulations.time_flow import time_flow
 from formulations.tour import tour
 from windopt.errors import InvalidInput
 from windopt.result import Status
-from windopt.solving import integer, solve
+from windopt.solving import rounds, solve
 
 HARD = """
 import numpy as np
@@ -95,7 +95,7 @@ class Mistaken:
 
 def test_a_solution_outweighs_a_claim_that_there_is_none(monkeypatch):
     program = knapsack([3.0, 2.0, 1.0], least=4.0)
-    monkeypatch.setattr(integer, "RELAXATION_SHARE", 0.0)
+    monkeypatch.setattr(rounds, "RELAXATION_SHARE", 0.0)
     mistaken = Mistaken(program.model, HighsModelStatus.kInfeasible)
     result = solve(Knapsack(mistaken, program.x))
     assert result.status is Status.FEASIBLE

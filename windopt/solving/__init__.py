@@ -37,3 +37,30 @@ def solve(program: Any, *, time_limit: float = 60.0, **options: Any) -> Result[A
 
         result = nonlinear.solve(program, time_limit=time_limit, **options)
     return result
+
+
+def relax(program: Any, *, time_limit: float = 60.0) -> Result[Any]:
+    """Solve the linear relaxation of an integer program of :mod:`formulations`.
+
+    Parameters
+    ----------
+    program
+        As for :func:`solve`; it stays as it is.
+    time_limit
+        Wall-clock limit [s].
+
+    Returns
+    -------
+    Result
+        Its value is the bound that the program as stated proves; its solution is fractional.
+
+    Raises
+    ------
+    InvalidInput
+        If ``time_limit`` is negative, or the program has no relaxation, being nonlinear.
+    """
+    if not hasattr(program, "model"):
+        raise InvalidInput("program", "to be an integer program", type(program).__name__)
+    from windopt.solving import relaxed
+
+    return relaxed.relax(program, time_limit=time_limit)

@@ -14,40 +14,17 @@ meets on its way are checked too, so that a limit or Ctrl-C still leaves a plan.
 HiGHS: a program that has one is never called infeasible.
 """
 
-from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
-from itertools import takewhile
-from math import inf
-from time import perf_counter
-from typing import Protocol
+from dataclasses import replace
 
-import highspy
 import numpy as np
-from highspy.highs import HighspyArray, highs_linear_expression
 from numpy.typing import NDArray
 
 from windopt.errors import InvalidInput
-from windopt.result import Result, Status
-from windopt.solving.rows import rows
-from windopt.solving.watched import News, run
+from windopt.result import Result
+from windopt.solving.rounds import IntegerProgram, Rounds
 from windopt.trace import Progress, Recorder
 
-HIGHS = highspy.HighsModelStatus
-TOLERANCE = 1e-5  # Ten times HiGHS's own, which it applies to a scaled and presolved program.
-RELAXATION_SHARE = 0.5  # Part of the time limit after which a plan matters more than the bound.
-
-
-class IntegerProgram(Protocol):
-    """A HiGHS model to be minimised, its decisions, and the rows left out of it."""
-
-    @property
-    def model(self) -> highspy.Highs: ...
-
-    @property
-    def x(self) -> HighspyArray: ...
-
-    def cuts(self, x: NDArray[np.float64]) -> Iterator[highs_linear_expression]:
-        """Yield the rows that ``x`` violates."""
+__all__ = ["IntegerProgram", "solve"]
 
 
 def solve(
@@ -98,7 +75,7 @@ def solve(
     model.setOptionValue("threads", threads)
 
     recorder = Recorder(progress)
-    search = _Search(program, time_limit, recorder)
+    search = Rounds(program, time_limit, recorder)
     try:
         search.begin(start)
         search.relax()
@@ -107,192 +84,4 @@ def solve(
         search.interrupted = True
     result = search.result()
     trace = recorder.until(result.objective, result.bound)
-    return replace(result, asked_gap=gap, trace=trace)
-
-
-@dataclass
-class _Search:
-    """The rounds on one program, and the best solution and bound they have given so far."""
-
-    program: IntegerProgram
-    time_limit: float
-    progress: Progress | None
-    began: float = field(default_factory=perf_counter)
-    values: NDArray[np.float64] | None = None  # of all columns, at the best solution
-    objective: float = inf
-    bound: float = -inf
-    stage: str = ""  # of the whole program; none while a start is completed
-    proof: str = ""
-    shown: tuple[float, float] = (inf, -inf)  # objective and bound last reported
-    reason: str = ""
-    optimal: bool = False
-    infeasible: bool = False
-    interrupted: bool = False
-
-    def __post_init__(self) -> None:
-        lp = self.program.model.getLp()
-        self.cost, self.offset = np.array(lp.col_cost_), lp.offset_
-        self.rows = rows(lp)  # Those added later are of ``cuts``, which is asked anyway.
-        self.whole = np.array(
-            [kind != highspy.HighsVarType.kContinuous for kind in lp.integrality_]
-        )
-        self.column = np.array([v.index for v in self.program.x.flat], dtype=np.int32)
-
-    def begin(self, start: NDArray[np.float64] | None) -> None:
-        """Keep ``start`` if the other columns can follow it.
-
-        HiGHS could complete it too, but reports bounds of that smaller program while it does.
-        """
-        if start is None:
-            return
-        model, column, value = self.program.model, self.column, np.ravel(start).astype(float)
-        lower, upper = self.rows.col_lower[column], self.rows.col_upper[column]
-        if (value < lower).any() or (value > upper).any():
-            return
-        model.setOptionValue("solve_relaxation", True)
-        try:
-            model.changeColsBounds(column.size, column, value, value)
-            if self._run(self.time_limit) == HIGHS.kOptimal:
-                self._keep(self._values())
-        finally:
-            model.changeColsBounds(column.size, column, lower, upper)
-            model.clearSolver()
-        self.reason = ""
-
-    def relax(self) -> None:
-        """Solve the relaxation until it keeps every row or has had its share of the time."""
-        model, limit = self.program.model, RELAXATION_SHARE * self.time_limit
-        self.stage = "linear relaxation"
-        model.setOptionValue("solve_relaxation", True)
-        tied = np.flatnonzero(abs(self.rows.A) @ ~self.whole).astype(np.int32)
-        lower, upper = self.rows.row_lower[tied], self.rows.row_upper[tied]
-        free = np.full(tied.size, inf)
-        try:
-            model.changeRowsBounds(tied.size, tied, -free, free)
-            self._relax(limit / 2)
-        finally:
-            model.changeRowsBounds(tied.size, tied, lower, upper)
-        if tied.size > 0:
-            self._relax(limit)
-
-    def branch(self) -> None:
-        """Solve the integer program until its optimum keeps every row."""
-        model = self.program.model
-        self.stage = "branch and cut"
-        model.setOptionValue("solve_relaxation", False)
-        while not self.infeasible:
-            if self.values is not None:
-                model.setSolution(self.values.size, np.arange(self.values.size), self.values)
-            status = self._run(self.time_limit)
-            if status not in (HIGHS.kOptimal, HIGHS.kTimeLimit, HIGHS.kInterrupt):
-                break
-            self._raise_bound(model.getInfo().mip_dual_bound)
-            if status != HIGHS.kOptimal:
-                break
-            values = self._rounded(self._values())
-            if not self._add_violated(values, self.time_limit):
-                self.optimal = self._keep(values)
-                break
-
-    def result(self) -> Result[NDArray[np.float64]]:
-        """Return what is known, in windopt's words."""
-        runtime = perf_counter() - self.began
-        if self.infeasible and self.values is None:
-            return Result(Status.INFEASIBLE, None, inf, inf, runtime, self.proof, self.reason)
-        if self.optimal:
-            status = Status.OPTIMAL
-        elif self.interrupted:
-            status = Status.INTERRUPTED
-        else:
-            status = Status.NO_SOLUTION if self.values is None else Status.FEASIBLE
-        x = None if self.values is None else self._x(self.values)
-        if self.infeasible:
-            reason = "HiGHS called the program infeasible, which this solution disproves."
-            return Result(status, x, self.objective, -inf, runtime, reason=reason)
-        bound = min(self.bound, self.objective)
-        return Result(status, x, self.objective, bound, runtime, self.proof, self.reason)
-
-    def _relax(self, limit: float) -> None:
-        while self._run(limit) == HIGHS.kOptimal:
-            self._raise_bound(self.program.model.getInfo().objective_function_value)
-            if not self._add_violated(self._values(), limit):
-                break
-
-    def _run(self, limit: float) -> highspy.HighsModelStatus:
-        """Run HiGHS until ``limit`` at most, and return how it ended."""
-        model = self.program.model
-        if self.interrupted or self._left(limit) <= 0.0:
-            return HIGHS.kNotset
-        status = self._ending(limit)
-        if status == HIGHS.kUnboundedOrInfeasible:  # Presolve cannot tell which, a solve can.
-            _, presolve = model.getOptionValue("presolve")
-            model.setOptionValue("presolve", "off")
-            try:
-                status = self._ending(limit)
-            finally:
-                model.setOptionValue("presolve", presolve)
-        if status == HIGHS.kInfeasible and self.stage:
-            self.infeasible, self.proof = True, f"HiGHS, {self.stage}"
-        if status not in (HIGHS.kOptimal, HIGHS.kTimeLimit, HIGHS.kInterrupt):
-            self.reason = f"HiGHS ended with: {model.modelStatusToString(status)}."
-        return status
-
-    def _ending(self, limit: float) -> highspy.HighsModelStatus:
-        """Run HiGHS once, and return what it says of it."""
-        self.program.model.setOptionValue("time_limit", max(0.0, self._left(limit)))
-        self.interrupted |= run(self.program.model, self._hear)
-        status: highspy.HighsModelStatus = self.program.model.getModelStatus()
-        return status
-
-    def _hear(self, news: News) -> None:
-        """Take in what HiGHS has found so far; its bound counts once the run has ended."""
-        if news.values is not None:
-            self._keep(news.values)
-        self._report(news.bound)
-
-    def _raise_bound(self, bound: float) -> None:
-        if bound > self.bound:
-            self.bound, self.proof = bound, f"HiGHS, {self.stage}"
-            self._report(bound)
-
-    def _keep(self, values: NDArray[np.float64]) -> bool:
-        """Keep the solution if it is the best, and return whether it keeps every row."""
-        values = self._rounded(values)
-        if next(self.program.cuts(self._x(values)), None) is not None:
-            return False
-        if (violation := self.rows.largest_violation(values)) > TOLERANCE:
-            self.reason = f"HiGHS returned a solution that breaks a row by {violation:.2g}."
-            return False
-        objective = float(self.cost @ values) + self.offset
-        if objective < self.objective:
-            self.objective, self.values, self.reason = objective, values, ""
-            self._report(self.bound)
-        return True
-
-    def _report(self, bound: float) -> None:
-        shown = self.objective, min(max(bound, self.shown[1]), self.objective)
-        if self.progress is not None and shown != self.shown:
-            self.shown = shown
-            self.progress(*shown)
-
-    def _add_violated(self, values: NDArray[np.float64], limit: float) -> int:
-        """Add the rows that ``values`` break, as far as time allows, and return how many."""
-        rows = list(
-            takewhile(lambda _: self._left(limit) > 0.0, self.program.cuts(self._x(values)))
-        )
-        self.program.model.addConstrs(rows)
-        return len(rows)
-
-    def _values(self) -> NDArray[np.float64]:
-        return np.asarray(self.program.model.getSolution().col_value)
-
-    def _rounded(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
-        return np.where(self.whole, np.rint(values), values)
-
-    def _x(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return the values of ``x`` among those of all columns."""
-        return values[self.column].reshape(self.program.x.shape)
-
-    def _left(self, limit: float) -> float:
-        """Return the time left until ``limit`` [s]."""
-        return self.began + limit - perf_counter()
+    return replace(result, asked_gap=gap, trace=trace, effort=search.effort)
