@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from formulations.wind_triangle import flight_time, ground_speed, ground_speed_paper
 from windopt.domain.farm import Farm
-from windopt.domain.fleet import Fleet, Station
+from windopt.domain.fleet import Fleet, Station, Uav
 from windopt.domain.plan import SpeedRule, Unreachable
 from windopt.domain.routing import RoutingInstance
 from windopt.domain.wind import Wind
@@ -42,7 +42,7 @@ def routing_instance(
         stations=np.array([(station.x, station.y) for station in fleet.stations]),
         turbines=farm.xy,
         w=wind.velocity,
-        allowed=np.array([[_flies(station, wind)] * len(farm) for station in fleet.stations]),
+        allowed=np.array([[flies(station.uav, wind)] * len(farm) for station in fleet.stations]),
         airspeed=np.array([station.uav.airspeed for station in fleet.stations]),
     )
 
@@ -57,16 +57,32 @@ def in_reach(farm: Farm, fleet: Fleet, wind: Wind, *, dwell: Sequence[float]) ->
     return np.stack(reach)
 
 
-def _in_reach_of(
-    station: Station, farm: Farm, wind: Wind, dwell: Sequence[float]
-) -> NDArray[np.bool_]:
-    d, uav = farm.xy - (station.x, station.y), station.uav
+def round_trips(
+    d: NDArray[np.float64], wind: Wind, uav: Uav, dwell: NDArray[np.float64] | float
+) -> NDArray[np.float64]:
+    """Return the time of flights to a single turbine and back, with the dwell there [s].
+
+    Parameters
+    ----------
+    d
+        Displacements from station to turbine [m], shape ``(..., 2)``.
+    dwell
+        Time spent at each turbine [s], shape ``(...)`` or one for all.
+    """
     out, back = (
         flight_time(way, ground_speed(way, wind.velocity, uav.airspeed, cap=uav.ground_speed_cap))
         for way in (d, -d)
     )
-    reached: NDArray[np.bool_] = out + np.asarray(dwell) + back <= uav.t_max
-    return reached & _flies(station, wind)
+    times: NDArray[np.float64] = out + dwell + back
+    return times
+
+
+def _in_reach_of(
+    station: Station, farm: Farm, wind: Wind, dwell: Sequence[float]
+) -> NDArray[np.bool_]:
+    d = farm.xy - (station.x, station.y)
+    reached = round_trips(d, wind, station.uav, np.asarray(dwell)) <= station.uav.t_max
+    return reached & flies(station.uav, wind)
 
 
 def _times(station: Station, farm: Farm, wind: Wind, rule: SpeedRule) -> NDArray[np.float64]:
@@ -80,9 +96,9 @@ def _times(station: Station, farm: Farm, wind: Wind, rule: SpeedRule) -> NDArray
     return flight_time(d, ground_speed(d, wind.velocity, uav.airspeed, cap=cap))
 
 
-def _flies(station: Station, wind: Wind) -> bool:
-    """Whether the UAV is allowed in the wind, and can stay where it is."""
-    return wind.speed <= station.uav.wind_max and wind.speed < station.uav.airspeed
+def flies(uav: Uav, wind: Wind) -> bool:
+    """Whether a UAV is allowed in the wind, and can stay where it is."""
+    return wind.speed <= uav.wind_max and wind.speed < uav.airspeed
 
 
 def unreachable_turbines(
@@ -97,14 +113,14 @@ def unreachable_turbines(
 
 def _stations_of(fleet: Fleet, wind: Wind, instance: RoutingInstance, i: int) -> Sequence[Station]:
     """Return the stations that may inspect turbine i, in the wind or if it were weaker."""
-    flies = np.array([_flies(station, wind) for station in fleet.stations])
+    flies = np.array([flies(station.uav, wind) for station in fleet.stations])
     own = instance.allowed[:, i] | ~flies
     return [station for station, one in zip(fleet.stations, own, strict=True) if one]
 
 
 def _reason(fleet: Fleet, wind: Wind, instance: RoutingInstance, i: int) -> str:
     stations = _stations_of(fleet, wind, instance, i)
-    if not any(_flies(station, wind) for station in stations):
+    if not any(flies(station.uav, wind) for station in stations):
         limit = max(station.uav.wind_max for station in stations)
         if wind.speed > limit:
             return f"The wind of {wind.speed:.1f} m/s is above the UAVs' limit of {limit:.1f} m/s."
