@@ -113,8 +113,8 @@ def unreachable_turbines(
 
 def _stations_of(fleet: Fleet, wind: Wind, instance: RoutingInstance, i: int) -> Sequence[Station]:
     """Return the stations that may inspect turbine i, in the wind or if it were weaker."""
-    flies = np.array([flies(station.uav, wind) for station in fleet.stations])
-    own = instance.allowed[:, i] | ~flies
+    flown = np.array([flies(station.uav, wind) for station in fleet.stations])
+    own = instance.allowed[:, i] | ~flown
     return [station for station, one in zip(fleet.stations, own, strict=True) if one]
 
 

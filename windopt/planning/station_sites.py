@@ -95,7 +95,7 @@ def _grid(design: StationDesign) -> Floats:
         return np.empty((0, 2))
     steps = np.ceil(extent / pitch).astype(int) + 1
     points = corner + pitch * np.array(list(np.ndindex(*steps)))
-    return points[_within_hull(points, xy)]
+    return np.asarray(points[_within_hull(points, xy)])
 
 
 def _within_hull(points: Floats, xy: Floats) -> NDArray[np.bool_]:

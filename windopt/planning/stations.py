@@ -153,8 +153,7 @@ class _Search:
     @property
     def reached(self) -> NDArray[np.bool_]:
         """Whether some site reaches turbine i, shape ``(n,)``."""
-        reached: NDArray[np.bool_] = np.isfinite(self.t).any(axis=0)
-        return reached
+        return np.asarray(np.isfinite(self.t).any(axis=0))
 
     def cover(self) -> Result[Chosen]:
         """Choose the fewest sites; the objective is their number."""
