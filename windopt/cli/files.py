@@ -23,7 +23,14 @@ Picture = Callable[["Axes"], "Axes"]
 Named = tuple[str, Picture]
 
 
-FILES = ("plan.json", "flights.geojson", "forecast.png", "flights.png", "yaw.png")
+FILES = (
+    "plan.json",
+    "certificate.json",
+    "flights.geojson",
+    "forecast.png",
+    "flights.png",
+    "yaw.png",
+)
 
 
 def require_free(folder: Path | None, *, force: bool) -> None:

@@ -3,6 +3,7 @@
 import typer
 
 from windopt.cli import options as opt
+from windopt.cli.certificate import require_new, write_proof
 from windopt.cli.files import require_free, write_folder
 from windopt.cli.fleets import fleet
 from windopt.cli.outcome import exit_code, print_record
@@ -30,10 +31,12 @@ def inspect(
     seed: opt.Seed = 0,
     json: opt.Json = False,
     out: opt.Out = None,
+    certificate: opt.Certificate = None,
     force: opt.Force = False,
 ) -> None:
     """Plan flights that inspect every turbine within reach in the least total time."""
     require_free(out, force=force)
+    require_new(certificate, force=force)
     wind = Wind.from_met(wind_speed, wind_direction)
     uav = Uav(FALCON_8.name, airspeed, t_max, wind_max, ground_speed_cap)
     site = Farm.load(farm)
@@ -58,4 +61,6 @@ def inspect(
         show_inspection(result)
     if out is not None:
         write_folder(result, out, force=force)
+    if certificate is not None:
+        write_proof(result, certificate, out, time_limit, force=force)
     raise typer.Exit(exit_code(result))

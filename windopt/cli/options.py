@@ -58,6 +58,14 @@ Json = Annotated[bool, typer.Option("--json", help="Print the record as JSON and
 Out = Annotated[
     Path | None, typer.Option(help="Folder for plan.json, flights.geojson and pictures.")
 ]
+Certificate = Annotated[
+    Path | None,
+    typer.Option(
+        metavar="FILE",
+        help="Prove the bound once more, within --time-limit again, and write a certificate that "
+        "`windopt check` verifies; beside plan.json too where there is --out.",
+    ),
+]
 Force = Annotated[bool, typer.Option("--force", help="Overwrite files that exist.")]
 PowerCoefficient = Annotated[
     str | None,

@@ -9,7 +9,7 @@ from windopt.io.plan_reader import Recorded
 from windopt.io.plans import json_text, record_of
 from windopt.result import Result
 
-DONE, FAILED, BAD_INPUT = 0, 1, 2
+DONE, FAILED, BAD_INPUT, UNVERIFIED = 0, 1, 2, 3
 
 
 def print_record(plan: Recorded) -> None:

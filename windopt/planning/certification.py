@@ -1,8 +1,11 @@
 """Certificates of inspection plans: domain objects in, a proof of the bound out."""
 
+from math import isfinite
+
 from windopt.domain.certificate import Certificate
 from windopt.domain.plan import InspectionPlan
 from windopt.domain.routing import Route
+from windopt.errors import InvalidInput
 from windopt.planning.reach import restricted, routing_instance
 from windopt.result import Result
 
@@ -30,10 +33,14 @@ def certify(
     ------
     ValueError
         With the reason, if the result holds no plan.
+    InvalidInput
+        If no bound is claimed.
     """
     from windopt.solving.certification import certify as prove  # compiled loops load slowly
 
     plan = result.found()
+    if not isfinite(result.bound):
+        raise InvalidInput("bound", "to be proved, for a certificate", result.bound)
     visited = {name for flight in plan.flights for name in flight.turbines}
     reached = [i for i, name in enumerate(plan.farm.names) if name in visited]
     turbines = tuple(plan.farm.names[i] for i in reached)

@@ -34,6 +34,8 @@ SHRUNK = 0.6
 MARGIN, CLOSED = 3e-8, 5e-8
 """Parts of the target: what the gap is widened by before flights are dropped, and gaps that are
 none. Whoever verifies keeps fewer flights and asks for less."""
+DECIMALS = 9
+"""Of what is recorded, in seconds; what rounding does to a bound is allowed for."""
 FRACTIONAL = 0.05
 """Distance from a whole number from which a number of flights is asked about."""
 NEGLIGIBLE = 1e-6
@@ -163,8 +165,10 @@ def _violated(flown: Flown) -> Triples:
 
 def _round(duals: Duals, triples: Triples, unit: float) -> Round:
     """Return duals as a round, in seconds."""
-    paid = duals.penalty > 0
-    return Round(duals.pi * unit, duals.sigma * unit, triples[paid], duals.penalty[paid] * unit)
+    penalties = np.round(duals.penalty * unit, DECIMALS)
+    paid = penalties > 0
+    prices, tolls = np.round(duals.pi * unit, DECIMALS), np.round(duals.sigma * unit, DECIMALS)
+    return Round(prices, tolls, triples[paid], penalties[paid])
 
 
 def _ask(left: Left, flown: Flown) -> tuple[Question, Left, Left]:

@@ -1,0 +1,43 @@
+"""Certificates on the command line: proved on request, and written where they were asked for."""
+
+from pathlib import Path
+
+from windopt.cli.terminal import note, progress
+from windopt.domain.plan import InspectionPlan
+from windopt.errors import InvalidInput
+from windopt.io.certificates import write_certificate
+from windopt.planning.certification import certify
+from windopt.result import Result
+
+LACKING = 1e-6
+"""Relative; how far a proof may fall short of the bound without a word."""
+
+
+def require_new(path: Path | None, *, force: bool) -> None:
+    """Refuse a file that would be overwritten, before hours are spent on its content."""
+    if path is not None and path.exists() and not force:
+        raise InvalidInput("--certificate", "to be a new file unless --force is given", path)
+
+
+def write_proof(
+    result: Result[InspectionPlan],
+    path: Path,
+    folder: Path | None,
+    time_limit: float,
+    *,
+    force: bool,
+) -> None:
+    """Prove the bound of a plan and write the certificate to ``path`` and into ``folder``."""
+    if result.solution is None:
+        note(("There is no plan, and so no certificate.",))
+        return
+    with progress("Proving the bound once more, for the certificate"):
+        certificate = certify(result, time_limit=time_limit)
+    proved = certificate.proof.bound
+    if proved < result.bound * (1 - LACKING):
+        lacking = f"The certificate proves {proved:.2f} s of the bound of {result.bound:.2f} s"
+        note((f"{lacking}: time or memory did not suffice.",))
+    paths = [path] if folder is None else [path, folder / "certificate.json"]
+    for each in paths:
+        write_certificate(certificate, each, force=force)
+    note((f"Certificate written to {', '.join(map(str, paths))}.",))
