@@ -113,6 +113,18 @@ def test_without_wakes_turbines_get_pitch_and_tip_speed_ratio(windopt, folder):
     assert windopt("check", "record.json")[0] == 0
 
 
+@pytest.mark.parametrize("file", ["table.csv", "table.nc"])
+def test_a_yaw_table_is_written_once(windopt, folder, file):
+    command = "yaw-table", "farm.csv", "--out", file, "--directions", "80:100:10", "--jobs", "1"
+    code, out, _ = windopt(*command, "--speeds", "7,9", "--turbine", "nrel_5MW")
+    assert code == 0
+    assert "6 winds" in out
+    assert (folder / file).stat().st_size > 500
+    code, _, err = windopt(*command)
+    assert code == 2
+    assert "--force" in err
+
+
 def test_plan_writes_a_folder_that_check_passes(windopt, folder):
     command = "plan", "farm.csv", "--wind", "wind.csv", "--time", "2020-01-01T12:00"
     code, out, _ = windopt(*command, "--stations", "stations.csv", "--out", "out")
@@ -238,6 +250,10 @@ BAD = {
     "bounds": ("yaw", "farm.csv", *WIND, "--bounds", "20", "-20"),
     "turbulence": ("yaw", "farm.csv", *WIND, "--turbulence", "0"),
     "turbine": ("yaw", "farm.csv", *WIND, "--turbine", "V164"),
+    "--out to end": ("yaw-table", "farm.csv", "--out", "table.xlsx"),
+    "--speeds": ("yaw-table", "farm.csv", "--out", "table.csv", "--speeds", "a"),
+    "--directions": ("yaw-table", "farm.csv", "--out", "table.csv", "--directions", "0:360"),
+    "jobs": ("yaw-table", "farm.csv", "--out", "table.csv", "--jobs", "0"),
     "--wakes": ("yaw", "farm.csv", *WIND, "--wakes", "none", "--farm-cap", "5"),
     "air_density": ("yaw", "farm.csv", *WIND, "--air-density", "-1"),
 }

@@ -11,6 +11,7 @@ from windopt.cli.forecast import app as forecast
 from windopt.cli.inspect import inspect
 from windopt.cli.plan import plan
 from windopt.cli.yaw import yaw
+from windopt.cli.yaw_table import yaw_table
 
 app = typer.Typer(
     no_args_is_help=True,
@@ -18,7 +19,7 @@ app = typer.Typer(
     rich_markup_mode=None,  # units stand in brackets, which are markup to rich
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-for command in demo, plan, inspect, yaw, check:
+for command in demo, plan, inspect, yaw, yaw_table, check:
     app.command()(command)
 app.add_typer(forecast, name="forecast", help="Train, ask and score forecasters of the wind.")
 

@@ -52,6 +52,16 @@ def progress(task: str) -> Iterator[Callable[[float, float], None]]:
         yield update
 
 
+@contextmanager
+def counter(task: str) -> Iterator[Callable[[int, int], None]]:
+    """Show how much of a task is done while it runs; silent off a terminal."""
+    if not err.is_terminal:
+        yield lambda done, of: None
+        return
+    with err.status(task) as status:
+        yield lambda done, of: status.update(f"{task}: {done} of {of}")
+
+
 def show_plan(plan: Plan) -> None:
     """Print a plan: the forecast with the farm's power at each step, then the flights."""
     title = f"Forecast by {plan.forecast.method}, issued {plan.time}"

@@ -7,6 +7,14 @@ from secrets import token_hex
 from windopt.errors import InvalidInput
 
 
+def require_absent(path: str | Path, *, force: bool = False) -> None:
+    """Raise if there is a folder at ``path``, or a file and ``force`` is not set."""
+    if Path(path).is_dir():
+        raise InvalidInput("output", "to be a file", f"the folder {path}")
+    if Path(path).exists() and not force:
+        raise InvalidInput("output", "to be a new file unless --force is given", path)
+
+
 def write_whole(path: str | Path, content: str | bytes, *, force: bool = False) -> Path:
     """Write a file so that no reader ever sees half of it.
 
@@ -30,10 +38,7 @@ def write_whole(path: str | Path, content: str | bytes, *, force: bool = False) 
         If the disk refuses; the file is then as it was before.
     """
     path = Path(path)
-    if path.is_dir():
-        raise InvalidInput("output", "to be a file", f"the folder {path}")
-    if path.exists() and not force:
-        raise InvalidInput("output", "to be a new file unless --force is given", path)
+    require_absent(path, force=force)
     path.parent.mkdir(parents=True, exist_ok=True)
     part = path.with_name(f".{path.name}.{token_hex(4)}.part")
     try:

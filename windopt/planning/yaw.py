@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from formulations.rotor import MODELS
+from windopt.checking import check
 from windopt.domain.farm import Farm
 from windopt.domain.plan import SetPoint, YawPlan
 from windopt.domain.power_curve import STANDARD_AIR_DENSITY, PowerCurve
@@ -21,7 +22,7 @@ from windopt.domain.steering import Steering, yaw_problem
 from windopt.domain.turbine import TurbineType, require_positive
 from windopt.domain.wind import Wind
 from windopt.domain.yaw_problem import YawProblem
-from windopt.errors import InvalidInput
+from windopt.errors import FailedCheck, InvalidInput
 from windopt.heuristics.algorithm_1 import face_or_hold
 from windopt.planning.turbine_yaw import GAP, present_misalignments
 from windopt.result import Result, Status
@@ -41,7 +42,21 @@ class YawMethod(Protocol):
 
 
 METHODS: dict[str, YawMethod] = {"algorithm-1": face_or_hold}
+"""Methods by the name they are chosen by."""
 DEFAULT_METHOD = "algorithm-1"
+
+
+def method_named(name: str) -> YawMethod:
+    """Return the method of this name.
+
+    Raises
+    ------
+    InvalidInput
+        If there is none.
+    """
+    if name not in METHODS:
+        raise InvalidInput("method", f"to be one of {', '.join(METHODS)}", repr(name))
+    return METHODS[name]
 
 
 def plan_yaw(
@@ -83,17 +98,18 @@ def plan_yaw(
     ------
     InvalidInput
         If an option cannot be used, or a turbine names an unknown power coefficient.
+    FailedCheck
+        If the set-points do not stand up to the independent checker.
     """
     begin = perf_counter()
-    if method not in METHODS:
-        raise InvalidInput("method", f"to be one of {', '.join(METHODS)}", repr(method))
+    search = method_named(method)
     if isnan(time_limit) or time_limit < 0:
         raise InvalidInput("time_limit", ">= 0 s", time_limit)
     require_positive("air_density", air_density)
     steering = steering or Steering()
     present = np.array(present_misalignments(len(farm), wind, nacelle))
     problem = yaw_problem(farm, wind, steering, curve_of, air_density=air_density, present=present)
-    found = METHODS[method](problem, time_limit=time_limit, seed=seed)
+    found = search(problem, time_limit=time_limit, seed=seed)
     gamma = _judged(problem, found.solution, keep=method == "algorithm-1")
     plan = _plan(farm, wind, problem, steering, gamma)
     bound = min(problem.bound, found.bound) if found.bound >= plan.power else problem.bound
@@ -104,7 +120,11 @@ def plan_yaw(
     if bound - plan.power <= GAP * bound and status is not Status.INTERRUPTED:
         status = Status.OPTIMAL
     runtime = perf_counter() - begin
-    return Result(status, plan, plan.power, bound, runtime, source, found.reason)
+    result = Result(status, plan, plan.power, bound, runtime, source, found.reason)
+    report = check(result)
+    if not report.passed:
+        raise FailedCheck(report.violations)
+    return result
 
 
 def curve_of(type_: TurbineType) -> PowerCurve:
