@@ -31,6 +31,14 @@ def test_a_station_may_have_limits_of_its_own(write):
     assert fleet.stations[0].uav == Uav(airspeed=20.0, t_max=900.0)
 
 
+def test_a_station_may_be_short_of_flights(write, tmp_path):
+    fleet = read_stations(write("id,x,y,max_flights\nS1,1,2,3\nS2,1,2,\n"))
+    assert [station.max_flights for station in fleet.stations] == [3, None]
+    assert read_stations(write_stations(fleet, tmp_path / "again.csv")) == fleet
+    with pytest.raises(InvalidInput, match="'max_flights' in line 2 to be a whole number"):
+        read_stations(write("id,x,y,max_flights\nS1,1,2,1.5\n"))
+
+
 def test_degrees_are_projected_to_the_farms_system(write):
     farm = Farm("one", (Turbine("A", 500_000.0, 0.0),), crs="EPSG:32631")
     station = read_stations(write("id,lon,lat\nS1,3,0\n"), farm).stations[0]

@@ -7,14 +7,13 @@ import typer
 
 from windopt.cli import options as opt
 from windopt.cli.files import require_free, write_folder
-from windopt.cli.fleets import fleet
+from windopt.cli.flight_options import FlightOptions, UavOptions
 from windopt.cli.outcome import exit_code, print_record
 from windopt.cli.terminal import note, progress, show_plan
 from windopt.cli.times import parsed
+from windopt.cli.unfolded import unfolded
 from windopt.domain.farm import Farm
-from windopt.domain.fleet import FALCON_8, Uav
 from windopt.domain.wind import WindSeries
-from windopt.planning.inspection import DEFAULT_METHOD
 from windopt.planning.plan import DEFAULT_FORECASTER
 from windopt.planning.plan import plan as make_plan
 from windopt.planning.turbine_yaw import AIR_DENSITY
@@ -24,28 +23,21 @@ WindFile = Annotated[
 ]
 
 
+@unfolded
 def plan(
     farm: opt.FarmName,
     wind: WindFile,
     time: opt.Time = None,
-    stations: opt.Stations = "",
     forecaster: opt.ForecasterName = DEFAULT_FORECASTER,
     yaw_method: opt.YawMethod = "nlp",
     air_density: opt.AirDensity = AIR_DENSITY,
     power_coefficient: opt.PowerCoefficient = None,
-    method: opt.RoutingMethod = DEFAULT_METHOD,
-    dwell: opt.Dwell = 0.0,
-    rule: opt.Rule = "exact",
-    airspeed: opt.Airspeed = FALCON_8.airspeed,
-    t_max: opt.FlightTime = FALCON_8.t_max,
-    wind_max: opt.WindMax = FALCON_8.wind_max,
-    ground_speed_cap: opt.GroundSpeedCap = FALCON_8.ground_speed_cap,
     time_column: opt.Column = "",
     speed_column: opt.Column = "",
     direction_column: opt.Column = "",
-    gap: opt.Gap = 0.0,
-    time_limit: opt.TimeLimit = 60.0,
-    seed: opt.Seed = 0,
+    *,
+    flights: FlightOptions,
+    uav: UavOptions,
     json: opt.Json = False,
     out: opt.Out = None,
     force: opt.Force = False,
@@ -53,12 +45,12 @@ def plan(
     """Forecast the wind, set the turbines for each step ahead and plan the flights."""
     require_free(out, force=force)
     series = WindSeries.read(wind, time=time_column, speed=speed_column, direction=direction_column)
-    uav = Uav(FALCON_8.name, airspeed, t_max, wind_max, ground_speed_cap)
     site = Farm.load(farm)
     if power_coefficient is not None:
         site = site.with_power_coefficient(power_coefficient)
     note((*site.notes, *series.notes))
-    based = fleet(site, stations, uav, dwell=dwell, seed=seed)
+    based = flights.fleet(site, uav.uav)
+    asked = flights.asked(site, based)
     with progress(f"Planning {site.name}") as update:
         made = make_plan(
             site,
@@ -68,12 +60,7 @@ def plan(
             forecaster=forecaster,
             yaw_method=yaw_method,
             air_density=air_density,
-            method=method,
-            dwell=dwell,
-            rule=rule,
-            gap=gap,
-            time_limit=time_limit,
-            seed=seed,
+            **asked,
             progress=update,
         )
     if json:

@@ -78,7 +78,7 @@ def show_plan(plan: Plan) -> None:
 
 
 def show_inspection(result: Result[InspectionPlan]) -> None:
-    """Print a plan's flights and what is out of reach."""
+    """Print a plan's flights, and what is out of reach or left out."""
     plan = result.solution
     if plan is None:
         say(f"No plan: {result.status.sentence} {result.reason}")
@@ -91,8 +91,13 @@ def show_inspection(result: Result[InspectionPlan]) -> None:
     out.print(table)
     for left_out in plan.unreachable:
         say(f"Unreachable: {left_out.turbine}. {left_out.reason}")
+    for left in plan.left_out:
+        say(f"Left out: {left.turbine}. {left.reason}")
     flights = counted(len(plan.flights), "flight")
-    say(f"{flights}, {result.objective:.2f} s ({result.objective / 60:.2f} min).")
+    say(f"{flights}, {plan.duration:.2f} s ({plan.duration / 60:.2f} min).")
+    if plan.worth is not None:
+        worth = f"worth {plan.forgone:.2f} s; with the flights that makes {plan.cost:.2f} s"
+        say(f"{counted(len(plan.left_out), 'turbine')} left out, {worth}.")
     say(f"{_proof(result)} {result.reason}".strip())
 
 

@@ -36,7 +36,9 @@ def worth_per_turbine(
     return tuple(float(seconds) for seconds in worths)
 
 
-def worth_of_priorities(farm: Farm, fleet: Fleet, priority: Mapping[str, int]) -> tuple[float, ...]:
+def worth_of_priorities(
+    farm: Farm, fleet: Fleet, priority: Mapping[str, float]
+) -> tuple[float, ...]:
     """Return worths by which the greatest sum of priorities comes first, then the least time.
 
     A turbine of priority 3 counts as much as three of priority 1. One unit of it is worth more

@@ -1,0 +1,156 @@
+"""The options that every command with inspection flights takes."""
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from windopt.cli import options as opt
+from windopt.cli.fleets import fleet
+from windopt.domain.farm import Farm
+from windopt.domain.fleet import FALCON_8, Fleet, Uav
+from windopt.errors import InvalidInput
+from windopt.io.plans import read_plan
+from windopt.io.turbine_tables import read_numbers, read_stations_of_turbines
+from windopt.planning.assignment import NEAREST, Assignment
+from windopt.planning.inspection import DEFAULT_METHOD
+from windopt.planning.search_options import MEMORY
+from windopt.planning.worth import worth_of_priorities
+
+GB = 1e9
+
+MaxFlights = Annotated[
+    int | None,
+    typer.Option(
+        min=0,
+        help="Flights that each station is good for; as many turbines as possible are then "
+        "inspected (method exact). A column max_flights of the stations' file says it for each.",
+    ),
+]
+Worth = Annotated[
+    str,
+    typer.Option(
+        metavar="SECONDS|FILE",
+        help="Flight time that the inspection of a turbine is worth [s]: one for all, or a CSV "
+        "file (turbine, worth). What takes longer is left out (method exact).",
+    ),
+]
+Priorities = Annotated[
+    Path | None,
+    typer.Option(
+        metavar="FILE",
+        help="CSV file (turbine, priority), 1 where not named: the greatest sum of priorities "
+        "comes first, then the least time.",
+    ),
+]
+Assigned = Annotated[
+    str,
+    typer.Option(
+        metavar="nearest|FILE",
+        help="Which stations may inspect which turbine: the nearest, or a CSV file (turbine, "
+        "station). By default any.",
+    ),
+]
+Start = Annotated[
+    Path | None, typer.Option(metavar="PLAN.json", help="An earlier plan to begin with.")
+]
+Memory = Annotated[
+    float, typer.Option(min=0.1, help="Memory that the method exact may take for its lists [GB].")
+]
+
+
+@dataclass(frozen=True)
+class UavOptions:
+    """The make of UAV kept at every station that names no other."""
+
+    airspeed: opt.Airspeed = FALCON_8.airspeed
+    t_max: opt.FlightTime = FALCON_8.t_max
+    wind_max: opt.WindMax = FALCON_8.wind_max
+    ground_speed_cap: opt.GroundSpeedCap = FALCON_8.ground_speed_cap
+
+    @property
+    def uav(self) -> Uav:
+        """The UAV."""
+        return Uav(FALCON_8.name, self.airspeed, self.t_max, self.wind_max, self.ground_speed_cap)
+
+
+@dataclass(frozen=True)
+class FlightOptions:
+    """From where, what and how flights are planned."""
+
+    stations: opt.Stations = ""
+    max_flights: MaxFlights = None
+    dwell: opt.Dwell = 0.0
+    worth: Worth = ""
+    priorities: Priorities = None
+    assignment: Assigned = ""
+    method: opt.RoutingMethod = DEFAULT_METHOD
+    rule: opt.Rule = "exact"
+    start: Start = None
+    gap: opt.Gap = 0.0
+    time_limit: opt.TimeLimit = 60.0
+    memory: Memory = MEMORY / GB
+    seed: opt.Seed = 0
+
+    def fleet(self, farm: Farm, uav: Uav) -> Fleet:
+        """Return the stations, each with its number of flights."""
+        based = fleet(farm, self.stations, uav, dwell=self.dwell, seed=self.seed)
+        if self.max_flights is None:
+            return based
+        return Fleet(
+            tuple(
+                replace(station, max_flights=self.max_flights)
+                if station.max_flights is None
+                else station
+                for station in based.stations
+            )
+        )
+
+    def asked(self, farm: Farm, based: Fleet) -> dict[str, Any]:
+        """Return what is asked of :func:`windopt.plan_inspection`, by keyword.
+
+        Raises
+        ------
+        InvalidInput
+            If a file cannot be used, or worth and priorities are both given.
+        """
+        return {
+            "method": self.method,
+            "dwell": self.dwell,
+            "rule": self.rule,
+            "worth": self._worth(farm, based),
+            "assignment": self._assignment(),
+            "start": None if self.start is None else read_plan(self.start),
+            "gap": self.gap,
+            "time_limit": self.time_limit,
+            "memory": GB * self.memory,
+            "seed": self.seed,
+        }
+
+    def _worth(self, farm: Farm, based: Fleet) -> float | tuple[float, ...] | None:
+        if self.priorities is not None:
+            if self.worth:
+                raise InvalidInput("--worth", "or --priorities", "both")
+            return worth_of_priorities(farm, based, read_numbers(self.priorities, "priority"))
+        if not self.worth:
+            return None
+        try:
+            return float(self.worth)
+        except ValueError:
+            table = read_numbers(_file("--worth", "a number", self.worth), "worth")
+        if table.keys() != set(farm.names):
+            other = ", ".join(sorted(table.keys() ^ set(farm.names))[:5])
+            raise InvalidInput("--worth", "to name each turbine of the farm and no other", other)
+        return tuple(table[name] for name in farm.names)
+
+    def _assignment(self) -> Assignment | None:
+        if self.assignment in ("", NEAREST):
+            return self.assignment or None
+        return read_stations_of_turbines(_file("--assignment", NEAREST, self.assignment))
+
+
+def _file(option: str, otherwise: str, given: str) -> Path:
+    if not Path(given).exists():
+        raise InvalidInput(option, f"to be {otherwise} or a file that exists", given)
+    return Path(given)
