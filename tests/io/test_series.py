@@ -195,6 +195,14 @@ def test_rows_off_the_grid_move_to_the_nearest_step(write):
     assert "Rows that share a step with a later one, left out: 1." in series.notes
 
 
+def test_a_clock_that_trembles_has_the_step_it_means(write):
+    late = np.random.default_rng(0).integers(0, 40, 200).astype("m8[s]")
+    stamps = np.datetime64("2020-01-01T00:00:00") + np.arange(200) * np.timedelta64(5, "m") + late
+    series = read_series(write(table(*(f"{t},{i % 20},0" for i, t in enumerate(stamps)))))
+    assert series.step_seconds == 300
+    assert len(series) == 200
+
+
 def test_a_reversed_file_is_turned_round(write):
     text = table(*FOUR).splitlines()
     series = read_series(write("\n".join([text[0], *reversed(text[1:])])))

@@ -39,8 +39,9 @@ def in_order(time: Times, lines: Rows) -> bool:
 def regular_steps(time: Times) -> tuple[Times, Rows, tuple[str, ...]]:
     """Return the times of the grid, the place of each row on it, and notes.
 
-    The step is the most common one. Rows between two times of the grid move to the nearest; where
-    two rows meet there, the later one stays.
+    The step is the most common one; where a clock trembles, so that few rows are a multiple of it
+    apart, it is the median in whole minutes. Rows between two times of the grid move to the
+    nearest; where two rows meet there, the later one stays.
 
     Parameters
     ----------
@@ -53,8 +54,7 @@ def regular_steps(time: Times) -> tuple[Times, Rows, tuple[str, ...]]:
         If the rows are too far apart for their step.
     """
     elapsed = time - time[0]
-    steps, counts = np.unique(np.diff(time), return_counts=True)
-    step = steps[counts.argmax()]
+    step = _step(np.diff(time))
     place = np.rint(elapsed / step).astype(np.intp)
     length = int(place[-1]) + 1
     if length > MAX_SPARSITY * len(time):
@@ -72,3 +72,13 @@ def regular_steps(time: Times) -> tuple[Times, Rows, tuple[str, ...]]:
     if met:
         notes.append(f"Rows that share a step with a later one, left out: {met}.")
     return grid, place, tuple(notes)
+
+
+def _step(apart: NDArray[np.timedelta64]) -> np.timedelta64:
+    """Return the step of rows that are ``apart``."""
+    steps, counts = np.unique(apart, return_counts=True)
+    common: np.timedelta64 = steps[counts.argmax()]
+    minutes = np.rint(np.median(apart / np.timedelta64(1, "m")))
+    if minutes < 1 or 2 * counts[steps % common == np.timedelta64(0)].sum() > len(apart):
+        return common
+    return np.timedelta64(int(minutes), "m")
