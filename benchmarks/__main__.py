@@ -12,6 +12,9 @@ from benchmarks.runner import run
 
 MEASURED = Path("measured")
 """Where lines go unless told otherwise."""
+RESULTS = Path("benchmarks/results")
+"""The lines behind the published pages."""
+PAGES = Path("docs/benchmarks/generated")
 
 
 def main(words: list[str] | None = None) -> None:
@@ -36,7 +39,19 @@ def _parser() -> argparse.ArgumentParser:
     add("--resume", action="store_true", help="go on where an earlier run ended")
     add("--out", type=Path, default=MEASURED, help="folder of lines (default: %(default)s)")
     running.set_defaults(command=_run)
+    reporting = commands.add_parser("report", help="make tables, pictures and pages of lines")
+    reporting.add_argument("--lines", type=Path, help=f"their folder ({MEASURED}, or {RESULTS})")
+    reporting.add_argument("--out", type=Path, default=PAGES, help="default: %(default)s")
+    reporting.set_defaults(command=_report)
     return parser
+
+
+def _report(chosen: argparse.Namespace) -> None:
+    from benchmarks.report.pages import write_pages
+
+    lines = chosen.lines or (MEASURED if MEASURED.exists() else RESULTS)
+    for page in write_pages(lines, chosen.out):
+        print(page)
 
 
 def _run(chosen: argparse.Namespace) -> None:

@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Sequence
 from importlib import import_module
 from itertools import product
+from math import isfinite
 
 from benchmarks.case import Case, Problem, Record
 from benchmarks.inspections import Inspection
@@ -45,8 +46,8 @@ LARGEST_SMALL = 51
 GRIDS = (*range(20, 201, 20), 210, 300)
 COMPILING = 200.0
 """Time in which the exact method's loops are compiled on any machine [s]."""
-TRACED = 25
-"""Moments of a trace that are kept, the last ones."""
+TOLD = 1e-3
+"""Change of objective or bound that a line's trace tells [-]."""
 
 
 def instances(chosen: str) -> Sequence[str]:
@@ -115,13 +116,23 @@ def outcome(result: Result[InspectionPlan]) -> Record:
         "rounds": effort.rounds,
         "rows": effort.rows,
         "nodes": effort.nodes,
-        "trace": [_rounded(moment) for moment in result.trace[-TRACED:]],
+        "trace": _thinned(result.trace),
         **_flights(result.solution),
     }
 
 
-def _rounded(moment: Moment) -> tuple[float, float, float]:
-    return round(moment.time, 3), round(moment.objective, 2), round(moment.bound, 2)
+def _thinned(trace: Sequence[Moment]) -> list[tuple[float, float, float]]:
+    """Return the moments that tell something, and the last."""
+    kept: list[Moment] = []
+    for moment in trace:
+        if not kept or any(
+            abs(new - old) > TOLD * abs(new)
+            for new, old in zip(moment[1:], kept[-1][1:], strict=True)
+            if isfinite(new)
+        ):
+            kept.append(moment)
+    kept += [moment for moment in trace[-1:] if moment not in kept]
+    return [(round(m.time, 3), round(m.objective, 2), round(m.bound, 2)) for m in kept]
 
 
 def _flights(plan: InspectionPlan | None) -> Record:

@@ -13,11 +13,11 @@ from pathlib import Path
 
 from windopt.domain.farm import Farm
 from windopt.domain.fleet import Fleet, Station
-from windopt.planning.stations import stations_by_k_means
+from windopt.planning.stations import stations_by_cover
 
 TABLE = Path(__file__).with_name("stations.csv")
 FIELDS = "farm", "dwell", "x", "y"
-TIME_LIMIT = 20.0
+TIME_LIMIT = 60.0
 """Of a placement [s]."""
 
 
@@ -28,7 +28,7 @@ def stations(handle: str, farm: Farm, dwell: int) -> Fleet:
 
 
 def _placed(farm: Farm, dwell: int) -> Fleet:
-    return stations_by_k_means(farm, dwell=float(dwell))
+    return stations_by_cover(farm, dwell=float(dwell), time_limit=TIME_LIMIT).found()
 
 
 @cache

@@ -67,8 +67,9 @@ def optiwindnet_farm(name: str, also_known: Iterable[str] = ()) -> Farm:
 
 
 def optiwindnet_sizes() -> dict[str, int]:
-    """Return how many turbines each of OptiWindNet's farms has, by handle."""
-    return {graph.graph["handle"]: graph.graph["T"] for graph in _repository()}
+    """Return how many turbines each of OptiWindNet's farms has that stand on the map, by handle."""
+    facts = (graph.graph for graph in _repository())
+    return {farm["handle"]: farm["T"] for farm in facts if "utm_zone_number" in farm}
 
 
 def _farm(graph: Any) -> Farm:

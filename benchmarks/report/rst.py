@@ -1,0 +1,50 @@
+"""The few forms of reStructuredText that the pages are made of."""
+
+import csv
+from collections.abc import Iterable, Sequence
+from io import StringIO
+
+from benchmarks.case import Record
+
+
+def title(text: str, line: str = "=") -> str:
+    """Return a heading."""
+    return f"{text}\n{line * len(text)}\n"
+
+
+def table(caption: str, rows: Sequence[Sequence[str]]) -> str:
+    """Return a table whose first row is its head."""
+    text = StringIO()
+    csv.writer(text, lineterminator="\n").writerows(rows)
+    body = "".join(f"   {line}\n" for line in text.getvalue().splitlines())
+    return f".. csv-table:: {caption}\n   :header-rows: 1\n\n{body}"
+
+
+def picture(file: str, alt: str) -> str:
+    """Return a picture that lies beside the page."""
+    return f".. image:: {file}\n   :alt: {alt}\n"
+
+
+def origin(records: Iterable[Record]) -> str:
+    """Return where the lines come from: commits, machines, versions, limits and commands."""
+    lines = list(records)
+    cases = {f"{len(lines)} cases": None}
+    commits = dict.fromkeys(f"commit {line['commit']}" for line in lines)
+    machines = dict.fromkeys(
+        "{processor}, {processors} processors, {memory_gb} GB".format(**line["machine"])
+        for line in lines
+    )
+    packages = dict.fromkeys(
+        ", ".join(f"{name} {value}" for name, value in line["versions"].items() if name in SHOWN)
+        for line in lines
+    )
+    limits = dict.fromkeys(f"limit {line['time_limit']:g} s, seed {line['seed']}" for line in lines)
+    facts = [*cases, *commits, *machines, *packages, *limits]
+    commands = dict.fromkeys(line["command"] for line in lines if line["command"])
+    said = "".join(f"   $ {command}\n" for command in commands)
+    listed = "".join(f"* {fact}\n" for fact in facts)
+    return f"{listed}\n.. code-block:: console\n\n{said}" if said else listed
+
+
+SHOWN = "python", "numpy", "highspy", "numba", "casadi", "pyvrp", "ortools", "floris", "torch"
+"""Packages whose versions the pages name."""
