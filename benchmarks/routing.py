@@ -16,14 +16,16 @@ from windopt.planning.inspection import plan_inspection
 from windopt.planning.routing_methods import METHODS, OwnMethod
 from windopt.result import Moment, Result
 
-RIVALS = {
+FURTHER_METHODS = {
     "pyvrp": "benchmarks.pyvrp_flights:pyvrp_flights",
     "or-tools": "benchmarks.ortools_flights:ortools_flights",
+    "time-flow-lp": "benchmarks.relaxations:time_flow_lp",
+    "route-indexed-lp": "benchmarks.relaxations:route_indexed_lp",
 }
-"""Methods of other projects, by where they are called."""
+"""Methods of other projects and bounds without plans, by where they are called."""
 
 DEFAULT_METHODS = {
-    "small": (*METHODS, *RIVALS),
+    "small": (*METHODS, *FURTHER_METHODS),
     "medium": ("exact", "pyvrp", "algorithm-2"),
     "full": ("exact",),
     "growth": ("exact", "time-flow", "pyvrp", "algorithm-2"),
@@ -76,11 +78,11 @@ def method(name: str) -> str | OwnMethod:
     """
     if name in METHODS:
         return name
-    module, _, function = RIVALS.get(name, name).partition(":")
+    module, _, function = FURTHER_METHODS.get(name, name).partition(":")
     try:
         return as_method(getattr(import_module(module), function))
     except (ImportError, AttributeError, ValueError) as missing:
-        known = ", ".join((*METHODS, *RIVALS))
+        known = ", ".join((*METHODS, *FURTHER_METHODS))
         raise InvalidInput("method", f"to be one of {known}, or module:function", missing) from None
 
 
@@ -151,7 +153,7 @@ def _flights(plan: InspectionPlan | None) -> Record:
 def warm_up(name: str) -> None:
     """Plan a small farm by a method; the exact one is compiled when it first meets such a farm."""
     limit = COMPILING if name == "exact" else 1.0
-    measure(Case("routing", "grid25-w10-090-d000", name, limit))
+    measure(Case("routing", "grid20-w10-090-d000", name, limit))
 
 
 PROBLEM = Problem(

@@ -142,7 +142,7 @@ def _better(found: Result[Routes], first: Result[Routes]) -> Result[Routes]:
     return found
 
 
-def _time_flow(
+def time_flow_program(
     instance: RoutingInstance, first: Result[Routes], time_limit: float
 ) -> TimeFlow | None:
     """Build the program of :mod:`formulations.time_flow`."""
@@ -151,7 +151,7 @@ def _time_flow(
     return time_flow(instance.t, instance.t_max, allowed=instance.allowed)
 
 
-def _route_indexed(
+def route_indexed_program(
     instance: RoutingInstance, first: Result[Routes], time_limit: float
 ) -> RouteIndexed | None:
     """Build the program of :mod:`formulations.route_indexed`, with as many routes as can pay.
@@ -188,8 +188,8 @@ def _exact(instance: RoutingInstance, options: SearchOptions) -> Result[Routes]:
 
 METHODS: dict[str, RoutingMethod] = {
     "exact": _exact,
-    "time-flow": _formulation(_time_flow),
-    "route-indexed": _formulation(_route_indexed),
+    "time-flow": _formulation(time_flow_program),
+    "route-indexed": _formulation(route_indexed_program),
     "algorithm-2": _heuristic(algorithm_2),
     "algorithm-2-as-published": _heuristic(partial(algorithm_2, split=split_by_rule)),
     "baseline": _heuristic(baseline),
