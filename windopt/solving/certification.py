@@ -63,6 +63,8 @@ def certify(
         search.offer([(route.station, route.turbines) for route in routes])
         n = len(instance.turbines)
         proof = Proof(0.0, np.zeros(n), ((),) * n)
+        if n == 0:
+            return proof
         try:
             relaxation = _relaxation(search, memory)
             proof = _over_all_flights(relaxation, bound)
