@@ -26,7 +26,7 @@ from windopt.planning.station_design import MARGIN, StationDesign, design_winds,
 from windopt.planning.station_sites import DEFAULT_CANDIDATES, candidate_sites
 from windopt.result import Result, Status
 from windopt.solving.integer import solve
-from windopt.solving.median_bound import remaining_sites
+from windopt.solving.site_reduction import remaining_sites, sites_of_covers
 
 __all__ = ["design_winds", "stations_by_cover", "stations_by_k_means"]
 
@@ -164,12 +164,17 @@ class _Search:
         source = f"{found.bound_source}, over {len(self.t)} sites"
         return replace(found, bound=bound, bound_source=source)
 
-    def median(self, count: int, cover: Chosen) -> Result[Chosen]:
+    def median(self, count: int, cover: Result[Chosen]) -> Result[Chosen]:
         """Choose ``count`` sites among those that a reduction leaves, beginning with a cover."""
-        others = np.flatnonzero(cover < 0.5)[: count - round(cover.sum())]
-        left = remaining_sites(self.t, np.union1d(np.flatnonzero(cover > 0.5), others))
+        known = cover.found() > 0.5
+        others = np.flatnonzero(~known)[: count - int(known.sum())]
+        start = np.union1d(np.flatnonzero(known), others)
+        sites = np.arange(len(self.t))
+        if count == cover.bound:
+            sites = np.union1d(sites_of_covers(np.isfinite(self.t), count), start)
+        left = remaining_sites(self.t[sites], np.searchsorted(sites, start))
         found = solve(
-            station_median(self.t[left.sites], count),
+            station_median(self.t[sites[left.sites]], count),
             time_limit=self._left,
             seed=self.seed,
             start=np.isin(left.sites, left.choice).astype(float),
@@ -177,7 +182,7 @@ class _Search:
         if found.solution is None:
             return found
         chosen = np.zeros(len(self.t))
-        chosen[left.sites] = found.solution
+        chosen[sites[left.sites]] = found.solution
         return replace(found.carrying(chosen), bound=max(found.bound, left.bound))
 
     def fewest(self) -> Result[Chosen]:
@@ -185,7 +190,7 @@ class _Search:
         cover = self.cover()
         if cover.solution is None or cover.status is Status.INTERRUPTED:
             return cover
-        median = self.median(round(cover.objective), cover.solution)
+        median = self.median(round(cover.objective), cover)
         if median.solution is None:
             return replace(cover, reason="Which of as many are the quickest was not asked.")
         unproven = f"Round trips from as many may be up to {median.gap:.2%} shorter."
@@ -200,7 +205,7 @@ class _Search:
         if count < cover.bound:
             least = f"{count} cannot reach every turbine, it takes {cover.bound:.0f} or more."
             return Result(Status.INFEASIBLE, None, inf, inf, 0.0, cover.bound_source, least)
-        found = self.median(count, cover.solution)
+        found = self.median(count, cover)
         return replace(found, bound_source=f"{found.bound_source}, over {len(self.t)} sites")
 
     @property

@@ -19,6 +19,7 @@ from windopt.trace import Progress
 
 HIGHS = highspy.HighsModelStatus
 TOLERANCE = 1e-5  # Ten times HiGHS's own, which it applies to a scaled and presolved program.
+WHOLE = 1e-9  # Of a whole number; a vertex is off by rounding only.
 RELAXATION_SHARE = 0.5  # Part of the time limit after which a plan matters more than the bound.
 
 
@@ -89,7 +90,10 @@ class Rounds:
         self.reason = ""
 
     def relax(self) -> None:
-        """Solve the relaxation until it keeps every row or has had its share of the time."""
+        """Solve the relaxation until it keeps every row or has had its share of the time.
+
+        Where its solution is whole and breaks no row, it is that of the program.
+        """
         model, limit = self.program.model, RELAXATION_SHARE * self.time_limit
         self.stage = "linear relaxation"
         model.setOptionValue("solve_relaxation", True)
@@ -101,7 +105,7 @@ class Rounds:
             self._relax(limit / 2)
         finally:
             model.changeRowsBounds(tied.size, tied, lower, upper)
-        if tied.size > 0:
+        if tied.size > 0 and not self.optimal:
             self._relax(limit)
         self.cut_bound = self.bound
 
@@ -110,7 +114,7 @@ class Rounds:
         model = self.program.model
         self.stage = "branch and cut"
         model.setOptionValue("solve_relaxation", False)
-        while not self.infeasible:
+        while not (self.infeasible or self.optimal):
             if self.values is not None:
                 model.setSolution(self.values.size, np.arange(self.values.size), self.values)
             status = self._run(self.time_limit)
@@ -151,7 +155,10 @@ class Rounds:
     def _relax(self, limit: float) -> None:
         while self._run(limit) == HIGHS.kOptimal:
             self._raise_bound(self.program.model.getInfo().objective_function_value)
-            if not self._add_violated(self._values(), limit):
+            values = self._values()
+            if not self._add_violated(values, limit):
+                fraction = np.abs(values - np.rint(values))[self.whole]
+                self.optimal = fraction.max(initial=0.0) <= WHOLE and self._keep(values)
                 break
 
     def _run(self, limit: float) -> highspy.HighsModelStatus:

@@ -1,13 +1,17 @@
 r"""Sites that no best choice of p contains, so that the p-median of the rest is small and the same.
 
-Priced at :math:`u_i` each, the rows (2) of :mod:`formulations.station_median` leave a problem that
-is solved by sorting: site j is worth :math:`\rho_j = \sum_i \max(0, u_i - t_{ji})`, and
+Two arguments, each by a bound that exceeds what is known if a site is forced in:
 
-.. math:: L(u) = \sum_i u_i - \text{the sum of the } p \text{ greatest } \rho_j
+* Of a cover by the fewest sites: the relaxation of :mod:`formulations.station_cover` plus the
+  site's reduced cost exceeds p.
+* Of the quickest choice: priced at :math:`u_i` each, the rows (2) of
+  :mod:`formulations.station_median` leave a problem that is solved by sorting. Site j is worth
+  :math:`\rho_j = \sum_i \max(0, u_i - t_{ji})`, the bound is
 
-bounds the total time from below. Forcing site j in raises the bound by what it is worth less than
-the p-th; where that exceeds the time of a known choice, j is in no better one. The prices climb
-along subgradients [1], and the sites that are chosen on the way make known choices.
+  .. math:: L(u) = \sum_i u_i - \text{the sum of the } p \text{ greatest } \rho_j,
+
+  and it rises by what the site is worth less than the p-th. The prices climb along subgradients
+  [1], and the sites that are chosen on the way make known choices.
 
 * [1] Narula, Ogbu & Samuelsson (1977), *Operations Research* 25, 709-713.
 """
@@ -18,9 +22,12 @@ from math import inf
 import numpy as np
 from numpy.typing import NDArray
 
+from formulations.station_cover import station_cover
+
 ROUNDS = 600
 PATIENCE = 20  # Rounds without a better bound, after which steps are halved.
 LEAST_STEP = 1e-3  # Of the step that would close the gap if the bound were linear.
+FEASIBLE = 1e-6  # HiGHS's tolerance on reduced costs is 1e-7, each.
 SLACK = 1e-9  # Of the total time; rounding shall exclude nothing.
 
 Floats = NDArray[np.float64]
@@ -45,6 +52,24 @@ class Remaining:
     choice: Ints
     total: float
     bound: float
+
+
+def sites_of_covers(a: NDArray[np.bool_], p: int) -> Ints:
+    """Return the sites that a cover by p may contain.
+
+    Parameters
+    ----------
+    a
+        Whether site j reaches turbine i, shape ``(m, n)``, each by one at least.
+    """
+    model = station_cover(a).model
+    model.setOptionValue("solve_relaxation", True)
+    model.setOptionValue("threads", 1)
+    model.run()
+    solution, bound = model.getSolution(), model.getInfo().objective_function_value
+    if not solution.dual_valid:
+        return np.arange(len(a))
+    return np.flatnonzero(bound + np.array(solution.col_dual) <= p + FEASIBLE)
 
 
 def remaining_sites(t: Floats, choice: Ints) -> Remaining:
