@@ -39,7 +39,7 @@ def windopt(monkeypatch, capsys):
     return run
 
 
-@pytest.mark.parametrize("command", ["demo", "plan", "inspect", "yaw", "check"])
+@pytest.mark.parametrize("command", ["demo", "plan", "inspect", "yaw", "stations", "check"])
 def test_every_command_has_help(windopt, command):
     code, out, _ = windopt(command, "--help")
     assert code == 0

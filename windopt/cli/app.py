@@ -10,6 +10,7 @@ from windopt.cli.demo import demo
 from windopt.cli.forecast import app as forecast
 from windopt.cli.inspect import inspect
 from windopt.cli.plan import plan
+from windopt.cli.stations import stations
 from windopt.cli.yaw import yaw
 from windopt.cli.yaw_table import yaw_table
 
@@ -19,7 +20,7 @@ app = typer.Typer(
     rich_markup_mode=None,  # units stand in brackets, which are markup to rich
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-for command in demo, plan, inspect, yaw, yaw_table, check:
+for command in demo, plan, inspect, yaw, yaw_table, stations, check:
     app.command()(command)
 app.add_typer(forecast, name="forecast", help="Train, ask and score forecasters of the wind.")
 

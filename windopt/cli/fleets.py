@@ -8,7 +8,7 @@ from windopt.domain.fleet import Fleet, Uav
 from windopt.errors import InvalidInput
 from windopt.io.built_in import built_in_farm, built_in_stations
 from windopt.io.stations import read_stations
-from windopt.planning.stations import stations_by_k_means
+from windopt.planning.stations import stations_by_cover, stations_by_k_means
 
 
 def fleet(farm: Farm, stations: str, uav: Uav, *, dwell: float, seed: int) -> Fleet:
@@ -22,7 +22,7 @@ def fleet(farm: Farm, stations: str, uav: Uav, *, dwell: float, seed: int) -> Fl
     if not stations:
         return _by_default(farm, uav, dwell=dwell, seed=seed)
     if (count := _number(stations)) is not None:
-        return stations_by_k_means(farm, count, uav=uav, dwell=dwell, seed=seed)
+        return _as_many(farm, count, uav, dwell=dwell, seed=seed)
     if not Path(stations).exists():
         raise InvalidInput("--stations", "to be a number or a file that exists", stations)
     return read_stations(stations, farm, uav=uav)
@@ -38,6 +38,18 @@ def _number(text: str) -> int | None:
 def _by_default(farm: Farm, uav: Uav, *, dwell: float, seed: int) -> Fleet:
     if farm == built_in_farm():
         return built_in_stations(uav)
-    placed = stations_by_k_means(farm, uav=uav, dwell=dwell, seed=seed)
-    note((f"{counted(len(placed), 'station')} placed by k-means; name your own with --stations.",))
-    return placed
+    placed = stations_by_cover(farm, uav=uav, dwell=dwell, seed=seed)
+    if placed.solution is None:
+        raise InvalidInput("--stations", "to be given, as none could be placed", placed.reason)
+    fewest = counted(len(placed.solution), "station")
+    note((f"{fewest} placed, the fewest that reach every turbine; name your own with --stations.",))
+    return placed.solution
+
+
+def _as_many(farm: Farm, count: int, uav: Uav, *, dwell: float, seed: int) -> Fleet:
+    """Return a number of stations that reach every turbine or, where none do, those of k-means."""
+    placed = stations_by_cover(farm, count, uav=uav, dwell=dwell, seed=seed)
+    if placed.solution is not None:
+        return placed.solution
+    note((f"Stations placed by k-means. {placed.reason}",))
+    return stations_by_k_means(farm, count, uav=uav, seed=seed)

@@ -26,9 +26,9 @@ Stations = Annotated[
     str,
     typer.Option(
         metavar="N|FILE",
-        help="Stations: how many to place by k-means, or a CSV file (id, x, y). "
-        "By default the farm's own, or as few as reach every turbine in 10 m/s from anywhere "
-        "(slower UAVs: in 5/8 of their airspeed).",
+        help="Stations: how many to place, or a CSV file (id, x, y). By default the farm's own, "
+        "or as few as reach every turbine in 10 m/s from anywhere (slower UAVs: in 5/8 of their "
+        "airspeed) with 5 % of the flight to spare; see stations.",
     ),
 ]
 Time = Annotated[

@@ -84,7 +84,7 @@ def _inspection(plan: InspectionPlan) -> Record:
     return {
         "wind": _wind(plan.wind),
         "rule": str(plan.rule),
-        "stations": [_station(station) for station in plan.fleet.stations],
+        "stations": [station_record(station) for station in plan.fleet.stations],
         "flights": [_flight(flight) for flight in plan.flights],
         "unreachable": [left_out.turbine for left_out in plan.unreachable],
         "unreachable_reasons": {left.turbine: left.reason for left in plan.unreachable},
@@ -143,7 +143,8 @@ def _wind(wind: Wind) -> Record:
     }
 
 
-def _station(station: Station) -> Record:
+def station_record(station: Station) -> Record:
+    """Record a station with its UAVs."""
     return {
         "id": station.name,
         "x": float(station.x),

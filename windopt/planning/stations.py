@@ -28,7 +28,17 @@ from windopt.result import Result, Status
 from windopt.solving.integer import solve
 from windopt.solving.site_reduction import remaining_sites, sites_of_covers
 
-__all__ = ["design_winds", "stations_by_cover", "stations_by_k_means"]
+__all__ = [
+    "METHODS",
+    "design_winds",
+    "placed_by_cover",
+    "placed_by_k_means",
+    "stations_by_cover",
+    "stations_by_k_means",
+]
+
+METHODS = "cover", "k-means"
+"""How stations are placed: at the best of candidate sites, or at the centres of clusters."""
 
 Floats = NDArray[np.float64]
 Chosen = NDArray[np.float64]  # one where there is a station, shape (m,)
@@ -82,22 +92,59 @@ def stations_by_cover(
     FailedCheck
         If the independent checker finds a turbine beyond reach.
     """
+    design = station_design(farm, uav=uav, dwell=dwell, winds=winds, margin=margin)
+    return placed_by_cover(design, count, candidates=candidates, time_limit=time_limit, seed=seed)
+
+
+def placed_by_cover(
+    design: StationDesign,
+    count: int | None = None,
+    *,
+    candidates: str | Floats = DEFAULT_CANDIDATES,
+    time_limit: float = 60.0,
+    seed: int = 0,
+) -> Result[Fleet]:
+    """Place stations for a design; see :func:`stations_by_cover`."""
     start = perf_counter()
     require_not_negative("time_limit", time_limit)
-    design = station_design(farm, uav=uav, dwell=dwell, winds=winds, margin=margin)
     sites = candidate_sites(design, candidates, seed=seed)
-    if count is not None and not 1 <= count <= len(sites):
-        raise InvalidInput("stations", f"to number 1 to {len(sites)}, the candidate sites", count)
+    most = min(len(design.farm), len(sites))
+    if count is not None and not 1 <= count <= most:
+        raise InvalidInput("stations", f"to number 1 to {most}", count)
     search = _Search(design.round_trips(sites), start + time_limit, seed)
     found = search.fewest() if count is None else search.quickest(count)
     result: Result[Fleet] = found.carrying(None)
     if found.solution is not None:
-        fleet = _fleet(sites[found.solution > 0.5], uav)
+        fleet = _fleet(sites[found.solution > 0.5], design.uav)
         _assert_in_reach(design, fleet)
         result = found.carrying(fleet)
     elif not search.reached.all():
         result = replace(result, reason=_beyond_reach(design, search.reached))
     return result.timed(perf_counter() - start)
+
+
+def placed_by_k_means(
+    design: StationDesign, count: int | None = None, *, seed: int = 0
+) -> Result[Fleet]:
+    """Place stations for a design by k-means, which proves nothing.
+
+    With ``count``, turbines may be left beyond reach, and the objective is then infinite.
+    """
+    start = perf_counter()
+    if count is None and max(design.dwell) > design.longest:
+        reason = _beyond_reach(design, np.array(design.dwell) <= design.longest)
+        return Result(Status.INFEASIBLE, None, inf, inf, perf_counter() - start, reason=reason)
+    fleet = stations_by_k_means(
+        design.farm,
+        count,
+        uav=design.uav,
+        dwell=design.dwell,
+        winds=design.winds,
+        margin=design.margin,
+        seed=seed,
+    )
+    objective = design.total_time(fleet) if count is not None else float(len(fleet))
+    return Result(Status.FEASIBLE, fleet, objective, -inf, perf_counter() - start)
 
 
 def stations_by_k_means(
@@ -108,6 +155,7 @@ def stations_by_k_means(
     dwell: float | Sequence[float] = 0.0,
     winds: Sequence[Wind] | None = None,
     margin: float = 0.0,
+    least: int = 1,
     seed: int = 0,
 ) -> Fleet:
     """Place stations at the centres of k-means clusters of the turbines.
@@ -120,6 +168,8 @@ def stations_by_k_means(
         How many; as few as reach every turbine in all of ``winds`` unless given.
     uav, dwell, winds, margin
         As for :func:`stations_by_cover`.
+    least
+        The first number to try.
 
     Raises
     ------
@@ -135,7 +185,7 @@ def stations_by_k_means(
     if max(design.dwell) > design.longest:
         expected = f"<= {design.longest:g} s, which a flight may last"
         raise InvalidInput("dwell", expected, f"{max(design.dwell):g}")
-    for k in range(1, len(farm)):
+    for k in range(max(1, least), len(farm)):
         centres = place_stations(farm.xy, k, seed=seed)
         if np.isfinite(design.round_trips(centres)).any(axis=0).all():
             return _fleet(centres, uav)
@@ -203,7 +253,7 @@ class _Search:
         if cover.solution is None:
             return cover
         if count < cover.bound:
-            least = f"{count} cannot reach every turbine, it takes {cover.bound:.0f} or more."
+            least = f"{count} cannot reach every turbine: it takes {cover.bound:.0f} or more."
             return Result(Status.INFEASIBLE, None, inf, inf, 0.0, cover.bound_source, least)
         found = self.median(count, cover)
         return replace(found, bound_source=f"{found.bound_source}, over {len(self.t)} sites")

@@ -157,9 +157,13 @@ class Rounds:
             self._raise_bound(self.program.model.getInfo().objective_function_value)
             values = self._values()
             if not self._add_violated(values, limit):
-                fraction = np.abs(values - np.rint(values))[self.whole]
-                self.optimal = fraction.max(initial=0.0) <= WHOLE and self._keep(values)
+                self.optimal = self._solves(values) and self._keep(values)
                 break
+
+    def _solves(self, values: NDArray[np.float64]) -> bool:
+        """Whether a solution of the relaxation is one of the program: whole, and in all rows."""
+        fraction = np.abs(values - np.rint(values))[self.whole].max(initial=0.0)
+        return bool(fraction <= WHOLE and self.rows.largest_violation(values) <= TOLERANCE)
 
     def _run(self, limit: float) -> highspy.HighsModelStatus:
         """Run HiGHS until ``limit`` at most, and return how it ended."""

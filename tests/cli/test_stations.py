@@ -1,0 +1,120 @@
+"""``windopt stations``: what it prints, writes and exits with."""
+
+import json
+import sys
+
+import pytest
+
+from windopt.cli import main
+from windopt.io.stations import read_stations
+
+FARM = "name,x,y\nA1,0,0\nA2,600,0\nA3,1200,0\nB1,0,700\nB2,600,700\nC1,12000,0\n"
+WIND = "--wind-speed", "10", "--wind-direction", "90"
+
+
+@pytest.fixture
+def windopt(monkeypatch, capsys, tmp_path):
+    """Run a command beside farm.csv and return its exit code, output and complaints."""
+    (tmp_path / "farm.csv").write_text(FARM, encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+
+    def run(*words):
+        monkeypatch.setattr(sys, "argv", ["windopt", *map(str, words)])
+        with pytest.raises(SystemExit) as stop:
+            main()
+        told = capsys.readouterr()
+        return stop.value.code or 0, told.out, told.err
+
+    return run
+
+
+def test_stations_are_counted_proven_and_compared_with_k_means(windopt):
+    code, out, _ = windopt("stations", "farm.csv")
+    assert code == 0
+    assert "cover: 2 stations" in out
+    assert "k-means: 2 stations" in out
+    assert "Objective 2, bound 2" in out
+
+
+def test_the_file_is_what_inspect_reads(windopt):
+    assert windopt("stations", "farm.csv", "--out", "s.csv")[0] == 0
+    assert len(read_stations("s.csv")) == 2
+    code, out, _ = windopt("inspect", "farm.csv", *WIND, "--stations", "s.csv", "--json")
+    assert code == 0
+    assert json.loads(out)["unreachable"] == []
+    code, _, err = windopt("stations", "farm.csv", "--out", "s.csv")
+    assert code == 2
+    assert "--force" in err
+
+
+def test_the_record_says_what_is_proven(windopt):
+    code, out, _ = windopt("stations", "farm.csv", "--stations", "3", "--json")
+    record = json.loads(out)
+    assert code == 0
+    assert (record["status"], record["reason"]) == ("optimal", "")
+    assert record["objective"] == pytest.approx(record["placement"]["time"])
+    assert record["objective"] <= record["beside"][0]["time"]
+    assert len(record["stations"]) == 3
+
+
+@pytest.mark.parametrize(
+    ("options", "reason"),
+    [
+        (("--stations", "1"), "takes 2 or more"),
+        (("--dwell", "1060"), "turbine A1"),
+        (("--method", "k-means", "--dwell", "1060"), "turbine A1"),
+    ],
+)
+def test_where_no_stations_reach_every_turbine_the_reason_is_given(windopt, options, reason):
+    code, out, _ = windopt("stations", "farm.csv", *options)
+    assert code == 1
+    assert reason in out
+    code, out, _ = windopt("stations", "farm.csv", *options, "--json")
+    assert code == 1
+    assert reason in json.loads(out)["reason"]
+    assert json.loads(out)["stations"] == []
+
+
+def test_k_means_says_how_many_turbines_it_leaves_out(windopt):
+    code, out, _ = windopt("stations", "farm.csv", "--method", "k-means", "--stations", "1")
+    assert code == 0
+    assert "1 turbine beyond reach" in out
+
+
+@pytest.mark.parametrize(
+    ("options", "named"),
+    [
+        (("--method", "magic"), "--method"),
+        (("--candidates", "moon"), "candidates"),
+        (("--candidates", "substations"), "candidates"),
+        (("--margin", "1"), "margin"),
+        (("--dwell=-1",), "dwell"),
+        (("--stations", "7"), "stations"),
+        (("--t-max", "0"), "t_max"),
+    ],
+)
+def test_what_cannot_be_used_is_named(windopt, options, named):
+    code, _, err = windopt("stations", "farm.csv", *options)
+    assert code == 2
+    assert f"Expected {named}" in err
+
+
+def test_inspect_places_the_fewest_stations_by_itself(windopt):
+    code, out, err = windopt("inspect", "farm.csv", *WIND, "--json")
+    assert code == 0
+    assert "2 stations placed, the fewest" in err
+    assert json.loads(out)["unreachable"] == []
+
+
+def test_inspect_places_fewer_stations_by_k_means_and_says_so(windopt):
+    code, out, err = windopt("inspect", "farm.csv", *WIND, "--stations", "1", "--json")
+    assert code == 0
+    assert "takes 2 or more" in err
+    assert len(json.loads(out)["stations"]) == 1
+    assert json.loads(out)["unreachable"] == ["C1"]
+
+
+def test_inspect_asks_for_stations_where_none_can_be_placed(windopt):
+    code, _, err = windopt("inspect", "farm.csv", *WIND, "--dwell", "1060")
+    assert code == 2
+    assert "turbine A1" in err
