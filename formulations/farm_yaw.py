@@ -1,0 +1,249 @@
+r"""Farm-wide yaw: turn some rotors aside so that their wakes miss the others.
+
+:math:`\gamma_{it}` is the misalignment of turbine i in step t. In each wind k of the step it feels
+the wind :math:`u_k U_{ik}` and the turbulence :math:`I_{ik}`, and makes a wake by its thrust
+:math:`C_{ik}`; :math:`W_{pik}` is the deficit that all wakes together leave at point p of its
+rotor, a share :math:`c_p` of it, and :math:`E_k` the farm's power:
+
+.. math::
+
+    \max \quad & \sum_k w_k E_k                                                       \tag{1} \\
+    \text{s.t.} \quad & E_k \le \sum_i P_i\bigl(u_k U_{ik} \cos^{p/3} \gamma_{it}\bigr),
+        \quad E_k \le E^{max}                                                         \tag{2} \\
+      & U_{ik}^3 = \sum_p c_p (1 - W_{pik})^3                                         \tag{3} \\
+      & W_{pik}^2 + 2 \varepsilon W_{pik} = \sum_j d_{pji}^2(\gamma_{jt}, C_{jk}, I_{jk}) \tag{4} \\
+      & C_{ik} = C_T(u_k U_{ik}) \cos\gamma_{it}                                      \tag{5} \\
+      & I_{ik}^2 = I_\infty^2 + \kappa_{ik}^2 \, a(\gamma_{jt}, C_{jk})^{1.6},
+        \quad j = j(i, k)                                                             \tag{6} \\
+      & \underline\gamma_i \le \gamma_{it} \le \overline\gamma_i                      \tag{7} \\
+      & |\Delta\theta_t - \gamma_{it} + \gamma_{i,t-1}| \le \dot\gamma                    \tag{8}
+
+One step with one wind is a set-point; one step with several winds is a robust set-point, the best
+on average over a spread of directions and speeds; several steps are a schedule, in which the wind
+turns by :math:`\Delta\theta_t` and a nacelle by at most :math:`\dot\gamma`.
+
+The wakes come one after the other, so U, W, C and I are functions of the yaws. They are variables
+all the same: eliminated, they would couple every turbine with all those upstream, whereas here each
+row holds a few neighbours, and second derivatives couple only a turbine's own yaw, thrust and
+turbulence. (4) is the root of the sum of squares, whose slope would be infinite where there is
+no wake, moved by :math:`\varepsilon`. The main source j(i, k) of turbulence and its
+:math:`\kappa_{ik}` are those of the wakes the program was built from: solve, find the wakes at
+the solution, and solve again where they differ.
+
+Zero yaw in a wind along a row of turbines satisfies the first-order conditions, and is no maximum:
+start elsewhere.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import count
+from math import inf, prod
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from formulations import lifted_rows as rows
+from formulations.farm_in_wind import FarmInWind
+from formulations.farm_wakes import Wakes
+from formulations.separable import Family, SeparableProgram
+
+Floats = NDArray[np.float64]
+Places = NDArray[np.intp]
+
+
+class Turns(NamedTuple):
+    """How far nacelles may turn from one step to the next."""
+
+    most: float  # rad
+    shifts: Floats  # (T - 1,) by which the wind turns [rad]
+
+
+@dataclass(frozen=True, eq=False)
+class FarmYaw:
+    """The program, the places of its decisions, and where to start.
+
+    Parameters
+    ----------
+    program
+        Rows and bounds; the objective is minus (1), as a fraction of ``scale``.
+    gamma
+        Places of the misalignments among its variables, shape ``(T, n)``.
+    start
+        A point at which all rows but those of (8) hold, to within their rounded corners.
+    scale
+        Power of the farm without wakes [W].
+    """
+
+    program: SeparableProgram
+    gamma: Places
+    start: Floats
+    scale: float
+
+
+def farm_yaw(
+    farm: FarmInWind,
+    wakes: Wakes,
+    *,
+    bounds: tuple[Floats, Floats],
+    cap: float = inf,
+    turns: Turns | None = None,
+) -> FarmYaw:
+    r"""Build the program (1)-(8).
+
+    Parameters
+    ----------
+    farm
+        The farm and its winds.
+    wakes
+        Its wakes at the misalignments where the search shall start.
+    bounds
+        Lower and upper bounds of the misalignments [rad], of shape ``(n,)`` or ``(T, n)``.
+    cap
+        The most that the farm may deliver in any wind [W].
+    turns
+        How far nacelles may turn between the steps; unless given, as far as they like.
+    """
+    scale = farm.free_power() or 1.0
+    x = _variables(farm, wakes)
+    row = count()
+
+    K = len(x.E)
+    objective = Family(
+        rows.itself(), x.E[None], -farm.weights[None], np.zeros((1, K), dtype=np.intp)
+    )  # (1)
+    constraints = [
+        *_powers(farm, x, row, scale),  # (2)
+        *_means(farm, x, row),  # (3)
+        *_deficits(farm, wakes, x, row),  # (4)
+        *_thrusts(farm, x, row),  # (5)
+        *_turbulence(farm, wakes, x, row),  # (6)
+    ]
+    m = next(row)
+    lower_g, upper_g = np.zeros(m), np.zeros(m)
+    lower_g[:K] = -inf
+    if turns is not None:
+        constraints += _turns(x, turns, m)  # (8)
+        most = np.full(x.gamma[1:].size, turns.most)
+        lower_g, upper_g = np.append(lower_g, -most), np.append(upper_g, most)
+
+    lower_x, upper_x = _bounds(farm, wakes, x, cap / scale)
+    lower_x[x.gamma], upper_x[x.gamma] = bounds  # (7)
+    program = SeparableProgram(objective, constraints, lower_x, upper_x, lower_g, upper_g)
+    return FarmYaw(program, x.gamma, _start(wakes, x, cap, scale), scale)
+
+
+class _Variables(NamedTuple):
+    """Places of the variables; -1 where a turbine meets no wake."""
+
+    gamma: Places  # (T, n)
+    C: Places  # (K, n)
+    I: Places  # (K, n)  # noqa: E741
+    U: Places  # (K, n)
+    E: Places  # (K,)
+    W: Places  # (P, K, n)
+
+    @property
+    def waked(self) -> NDArray[np.bool_]:
+        """Which turbines meet a wake, shape ``(K, n)``."""
+        waked: NDArray[np.bool_] = self.W[0] >= 0
+        return waked
+
+
+def _variables(farm: FarmInWind, wakes: Wakes) -> _Variables:
+    P, K, n = wakes.W.shape
+    place = count()
+    shapes = wakes.gamma.shape, (K, n), (K, n), (K, n), (K,)
+    gamma, C, I, U, E = (_numbers(place, shape) for shape in shapes)  # noqa: E741
+    W = np.full((P, K, n), -1)
+    waked = np.zeros((K, n), dtype=bool)
+    waked[wakes.wind, wakes.target] = True
+    W[:, waked] = _numbers(place, (P, int(waked.sum())))
+    return _Variables(gamma, C, I, U, E, W)
+
+
+def _numbers(count: Iterator[int], shape: tuple[int, ...]) -> Places:
+    """Return the next numbers, in an array."""
+    return np.fromiter(count, dtype=np.intp, count=prod(shape)).reshape(shape)
+
+
+def _powers(farm: FarmInWind, x: _Variables, row: Iterator[int], scale: float) -> Iterator[Family]:
+    delivered = _numbers(row, x.E.shape)
+    yield Family(rows.itself(), x.E[None], np.ones((1, len(x.E))), delivered[None])
+    for c, k, i in _kinds(farm):
+        power = rows.power(farm.curve(c), farm.air_density, scale)
+        v = np.array([x.gamma[farm.steps[k], i], x.U[k, i]])
+        yield Family(power, v, farm.speeds[k][None], delivered[k][None])
+
+
+def _means(farm: FarmInWind, x: _Variables, row: Iterator[int]) -> Iterator[Family]:
+    _, i = np.nonzero(x.waked)
+    v = np.vstack([x.U[x.waked][None], x.W[:, x.waked]])
+    yield Family(rows.mean(len(x.W)), v, farm.shares()[:, i], _numbers(row, (1, len(i))))
+
+
+def _deficits(
+    farm: FarmInWind, wakes: Wakes, x: _Variables, row: Iterator[int]
+) -> Iterator[Family]:
+    W = x.W[:, x.waked]
+    at = np.full(x.W.shape, -1)
+    at[:, x.waked] = _numbers(row, W.shape)
+    yield Family(rows.superposed(len(W)), W, np.zeros((0, W.shape[1])), at[:, x.waked])
+    k, j, i = wakes.wind, wakes.source, wakes.target
+    v = np.array([x.gamma[farm.steps[k], j], x.C[k, j], x.I[k, j]])
+    yield Family(rows.taken(len(farm.rows)), v, wakes.place, at[:, k, i])
+
+
+def _thrusts(farm: FarmInWind, x: _Variables, row: Iterator[int]) -> Iterator[Family]:
+    for c, k, i in _kinds(farm):
+        v = np.array([x.gamma[farm.steps[k], i], x.U[k, i], x.C[k, i]])
+        yield Family(
+            rows.thrust(farm.curve(c)), v, farm.speeds[k][None], _numbers(row, (1, len(k)))
+        )
+
+
+def _turbulence(
+    farm: FarmInWind, wakes: Wakes, x: _Variables, row: Iterator[int]
+) -> Iterator[Family]:
+    k, i = np.nonzero(wakes.main >= 0)
+    j = wakes.main[k, i]
+    v = np.array([x.I[k, i], x.gamma[farm.steps[k], j], x.C[k, j]])
+    p = np.array([wakes.kappa[k, i], np.full(len(k), farm.turbulence)])
+    yield Family(rows.turbulence(), v, p, _numbers(row, (1, len(k))))
+
+
+def _turns(x: _Variables, turns: Turns, first: int) -> Iterator[Family]:
+    T, n = x.gamma.shape
+    v = np.array([x.gamma[1:].ravel(), x.gamma[:-1].ravel()])
+    shifts = np.repeat(turns.shifts, n)[None]
+    yield Family(rows.turned(), v, shifts, first + np.arange((T - 1) * n)[None])
+
+
+def _kinds(farm: FarmInWind) -> Iterator[tuple[int, Places, Places]]:
+    """Yield every power curve, and the winds and turbines it holds for."""
+    for c in range(len(farm.curves)):
+        k, i = np.meshgrid(np.arange(len(farm.speeds)), np.flatnonzero(farm.curve_of == c))
+        yield c, k.ravel(), i.ravel()
+
+
+def _bounds(farm: FarmInWind, wakes: Wakes, x: _Variables, cap: float) -> tuple[Floats, Floats]:
+    """Return bounds that no wake reaches, but for those of the farm's cap and of what is fixed."""
+    size = 1 + max(x.E.max(), x.W.max())
+    lower, upper = np.full(size, -inf), np.full(size, inf)
+    lower[x.C], upper[x.C] = 0.0, 0.99995
+    lower[x.I] = farm.turbulence
+    lower[x.U] = 0.01
+    lower[x.W[:, x.waked]], upper[x.W[:, x.waked]] = 0.0, 0.99
+    upper[x.E] = cap
+    free, calm = ~x.waked, wakes.main < 0
+    lower[x.U[free]] = upper[x.U[free]] = wakes.U[free]
+    lower[x.I[calm]] = upper[x.I[calm]] = farm.turbulence
+    return lower, upper
+
+
+def _start(wakes: Wakes, x: _Variables, cap: float, scale: float) -> Floats:
+    start = np.empty(1 + max(x.E.max(), x.W.max()))
+    start[x.gamma], start[x.C], start[x.I], start[x.U] = wakes.gamma, wakes.C_T, wakes.I, wakes.U
+    start[x.E] = np.minimum(wakes.powers.sum(axis=1), cap) / scale
+    start[x.W[:, x.waked]] = wakes.W[:, x.waked]
+    return start
