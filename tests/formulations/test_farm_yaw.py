@@ -35,7 +35,7 @@ def test_the_smooth_wakes_are_the_exact_ones(steered, scattered, seed, unlike):
     found, exact = wakes(in_wind([problem]), yaw[None], (-yaw, yaw)), flow(problem, yaw)
     total = problem.weights @ found.powers.sum(axis=1)
     assert total == pytest.approx(farm_power(problem, yaw), rel=SMOOTH)
-    assert pytest.approx(exact.turbulence, abs=2e-3) == found.I
+    assert pytest.approx(exact.turbulence, abs=5e-3) == found.I  # counted in ninths
     assert pytest.approx(exact.thrust, abs=2e-3) == found.C_T
 
 
