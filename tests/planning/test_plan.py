@@ -13,9 +13,10 @@ from windopt.domain.turbine import Turbine
 from windopt.domain.wind import WindSeries
 from windopt.errors import InvalidInput
 from windopt.forecasting.persistence import Persistence
+from windopt.heuristics.algorithm_1 import face_or_hold
+from windopt.planning import yaw
 from windopt.planning.plan import FORECASTERS, plan
 from windopt.planning.routing_methods import METHODS
-from windopt.planning.turbine_yaw import plan_turbine_yaw
 from windopt.result import Status
 
 FARM = Farm("row", tuple(Turbine(f"T{i}", 600.0 * i, 0.0) for i in range(5)))
@@ -73,30 +74,32 @@ def test_no_time_still_gives_a_whole_plan_and_says_so(method):
     assert "not proved" in made.inspection.reason.lower()
 
 
+def watched(limits, *, stopped_at=0):
+    """Return the paper's rule as a method that notes its time limits and may be interrupted."""
+
+    def method(problem, *, time_limit, seed):
+        limits.append(time_limit)
+        found = face_or_hold(problem)
+        interrupted = len(limits) == stopped_at
+        return replace(found, status=Status.INTERRUPTED) if interrupted else found
+
+    return method
+
+
 def test_set_points_and_flights_share_the_time_limit(monkeypatch):
     limits = []
-
-    def slow(*arguments, time_limit, **options):
-        limits.append(time_limit)
-        return plan_turbine_yaw(*arguments, time_limit=time_limit, **options)
-
-    monkeypatch.setattr("windopt.planning.plan.plan_turbine_yaw", slow)
-    plan(FARM, FLEET, STRONG, forecaster="persistence", time_limit=20.0)
+    monkeypatch.setitem(yaw.METHODS, "watched", watched(limits))
+    options = {"forecaster": "persistence", "yaw_method": "watched"}
+    plan(FARM, FLEET, STRONG, time_limit=20.0, **options)
     assert len(limits) == 8
     assert max(limits) <= 10.0
-    assert limits == sorted(limits, reverse=True)
+    assert limits[0] <= 10.0 / 8
 
 
 def test_ctrl_c_ends_the_whole_plan(monkeypatch):
     limits = []
-
-    def stopped(*arguments, time_limit, **options):
-        limits.append(time_limit)
-        result = plan_turbine_yaw(*arguments, time_limit=time_limit, **options)
-        return replace(result, status=Status.INTERRUPTED) if len(limits) == 2 else result
-
-    monkeypatch.setattr("windopt.planning.plan.plan_turbine_yaw", stopped)
-    made = plan(FARM, FLEET, STRONG, forecaster="persistence")
+    monkeypatch.setitem(yaw.METHODS, "watched", watched(limits, stopped_at=2))
+    made = plan(FARM, FLEET, STRONG, forecaster="persistence", yaw_method="watched")
     assert limits[1] > 0.0
     assert limits[2:] == [0.0] * 6
     assert "not proved" in made.inspection.reason.lower()

@@ -1,5 +1,6 @@
 """Quantiles of a wind forecast, and coherent wind paths drawn from them."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from statistics import NormalDist
 
@@ -48,6 +49,19 @@ class Quantiles:
     def __getitem__(self, trace: int) -> "Quantiles":
         """Return those of one trace of many."""
         return replace(self, speed=self.speed[trace], turn=self.turn[trace])
+
+    def at(self, levels: Sequence[float]) -> tuple[Floats, Floats]:
+        """Return speeds [m/s] and turns [rad] of one trace at any levels, shapes ``(H, L)``."""
+        if self.speed.ndim != 2:
+            raise InvalidInput("quantiles", "of one trace", f"shape {self.speed.shape}")
+        nodes, x = (
+            np.array([NormalDist().inv_cdf(p) for p in row]) for row in (self.levels, levels)
+        )
+        speed, turn = (
+            np.array([_quantile(x, nodes, row) for row in values])
+            for values in (self.speed, self.turn)
+        )
+        return np.maximum(speed, 0.0), turn
 
     def paths(self, n: int, rng: np.random.Generator) -> tuple[Floats, Floats]:
         """Draw speeds [m/s] and turns [rad] over the horizon, shapes ``(n, H)``.

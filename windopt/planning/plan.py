@@ -8,8 +8,10 @@ import numpy as np
 from windopt.domain.farm import Farm
 from windopt.domain.fleet import Fleet
 from windopt.domain.plan import Plan, SpeedRule, YawPlan
+from windopt.domain.power_curve import STANDARD_AIR_DENSITY
+from windopt.domain.steering import Steering
 from windopt.domain.turbine import require_not_negative
-from windopt.domain.wind import WindForecast, WindSeries
+from windopt.domain.wind import WindSeries
 from windopt.errors import InvalidInput
 from windopt.forecasting.autoregression import LinearAutoregression
 from windopt.forecasting.forecaster import Forecaster
@@ -17,9 +19,10 @@ from windopt.forecasting.lstm import EdgeForecaster
 from windopt.forecasting.persistence import Persistence
 from windopt.planning.assignment import Assignment
 from windopt.planning.inspection import DEFAULT_METHOD, plan_inspection
+from windopt.planning.schedule import Pace, plan_schedule
 from windopt.planning.search_options import MEMORY
 from windopt.planning.start import Start
-from windopt.planning.turbine_yaw import AIR_DENSITY, plan_turbine_yaw
+from windopt.planning.yaw import DEFAULT_METHOD as DEFAULT_YAW_METHOD
 from windopt.result import Result, Status
 from windopt.trace import Progress
 
@@ -43,8 +46,10 @@ def plan(
     *,
     time: np.datetime64 | None = None,
     forecaster: Forecaster | str = DEFAULT_FORECASTER,
-    yaw_method: str = "nlp",
-    air_density: float = AIR_DENSITY,
+    yaw_method: str = DEFAULT_YAW_METHOD,
+    steering: Steering | None = None,
+    pace: Pace | None = None,
+    air_density: float = STANDARD_AIR_DENSITY,
     method: str = DEFAULT_METHOD,
     dwell: float | Sequence[float] = 0.0,
     rule: SpeedRule | str = SpeedRule.EXACT,
@@ -71,8 +76,8 @@ def plan(
         for series of 5 and 10 minutes.
     yaw_method, method
         Methods for set-points and for flights.
-    air_density
-        Rho [kg/m3], for the set-points.
+    steering, pace, air_density
+        As in :func:`windopt.planning.schedule.plan_schedule`, for the set-points.
     dwell, rule, worth, assignment, start, gap, memory, progress
         As in :func:`windopt.plan_inspection`, for the flights.
     time_limit
@@ -97,13 +102,15 @@ def plan(
     require_not_negative("time_limit", time_limit)
     known = series if time is None else series.until(time)
     forecast = _fitted(forecaster, known).predict(known)
-    yaw = _yaw_steps(
+    yaw = plan_schedule(
         farm,
         forecast,
-        start=_last_direction(known),
-        deadline=begin + YAW_SHARE * time_limit,
+        nacelle=_last_direction(known),
         method=yaw_method,
+        steering=steering,
+        pace=pace,
         air_density=air_density,
+        time_limit=YAW_SHARE * time_limit,
         seed=seed,
     )
     left = 0.0 if _stopped(yaw) else max(0.0, begin + time_limit - perf_counter())
@@ -141,34 +148,6 @@ def _fitted(forecaster: Forecaster | str, known: WindSeries) -> Forecaster:
 def _last_direction(known: WindSeries) -> float:
     """Return the wind direction last measured [rad, met.]."""
     return float(known.theta_met[known.valid][-1])
-
-
-def _yaw_steps(
-    farm: Farm,
-    forecast: WindForecast,
-    *,
-    start: float,
-    deadline: float,
-    method: str,
-    air_density: float,
-    seed: int,
-) -> tuple[Result[YawPlan], ...]:
-    """Set-points for each step, every nacelle starting where the step before left it."""
-    nacelle: float | Sequence[float] = start
-    steps: list[Result[YawPlan]] = []
-    for wind in forecast.winds:
-        result = plan_turbine_yaw(
-            farm,
-            wind,
-            method=method,
-            nacelle=nacelle,
-            air_density=air_density,
-            time_limit=0.0 if _stopped(steps) else max(0.0, deadline - perf_counter()),
-            seed=seed,
-        )
-        nacelle = [point.nacelle for point in result.found().set_points]
-        steps.append(result)
-    return tuple(steps)
 
 
 def _stopped(steps: Sequence[Result[YawPlan]]) -> bool:

@@ -6,6 +6,7 @@ proven bound; it is reached where the wind is strong enough for all to run at ra
 """
 
 from collections.abc import Sequence
+from dataclasses import replace
 from math import isnan, pi
 from time import perf_counter
 from typing import Protocol
@@ -110,7 +111,30 @@ def plan_yaw(
     present = np.array(present_misalignments(len(farm), wind, nacelle))
     problem = yaw_problem(farm, wind, steering, curve_of, air_density=air_density, present=present)
     found = search(problem, time_limit=time_limit, seed=seed)
-    gamma = _judged(problem, found.solution, keep=method == "algorithm-1")
+    if method != "algorithm-1":
+        found = _no_worse_than_facing(problem, found)
+    result = judged_plan(farm, wind, problem, steering, found)
+    return result.timed(perf_counter() - begin)
+
+
+def judged_plan(
+    farm: Farm, wind: Wind, problem: YawProblem, steering: Steering, found: Result[Floats]
+) -> Result[YawPlan]:
+    """Return the set-points of what a method found, judged by the exact model and checked.
+
+    Parameters
+    ----------
+    problem
+        The farm's yaw problem in this wind, under this steering.
+    found
+        Misalignments [rad], shape ``(n,)``; where there are none, the rotors face the wind.
+
+    Raises
+    ------
+    FailedCheck
+        If the set-points do not stand up to the independent checker.
+    """
+    gamma = problem.facing if found.solution is None else found.solution
     plan = _plan(farm, wind, problem, steering, gamma)
     bound = min(problem.bound, found.bound) if found.bound >= plan.power else problem.bound
     source = found.bound_source if bound < problem.bound else BOUND_SOURCE
@@ -119,8 +143,7 @@ def plan_yaw(
         status = Status.FEASIBLE
     if bound - plan.power <= GAP * bound and status is not Status.INTERRUPTED:
         status = Status.OPTIMAL
-    runtime = perf_counter() - begin
-    result = Result(status, plan, plan.power, bound, runtime, source, found.reason)
+    result = Result(status, plan, plan.power, bound, found.runtime, source, found.reason)
     report = check(result)
     if not report.passed:
         raise FailedCheck(report.violations)
@@ -135,13 +158,13 @@ def curve_of(type_: TurbineType) -> PowerCurve:
     return type_.curve or type_.curve_by(MODELS[name].best().C_p)
 
 
-def _judged(problem: YawProblem, found: Floats | None, *, keep: bool) -> Floats:
-    """Return what a method found, or facing the wind where that is better or nothing was found."""
-    facing = problem.facing
-    if found is None:
-        return facing
-    better = not keep and farm_power(problem, facing) > farm_power(problem, found)
-    return facing if better else found
+def _no_worse_than_facing(problem: YawProblem, found: Result[Floats]) -> Result[Floats]:
+    """Return what a method found, or facing the wind where that delivers more."""
+    if found.solution is not None:
+        facing, steered = farm_power(problem, np.array([problem.facing, found.solution]))
+        if steered >= facing:
+            return found
+    return replace(found, solution=problem.facing)
 
 
 def _plan(

@@ -1,0 +1,156 @@
+"""A schedule of yaw: set-points for each step of a forecast, which nacelles can follow and should.
+
+Each step is a wind-steering problem of its own, robust to the directions that the forecast holds
+possible. Nacelles start where the step before left them: how far they turn in the time of a step
+bounds the problem itself, and where the best set-points would not repay the trip, they stay.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from math import inf, isfinite, pi, radians
+from time import perf_counter
+
+import numpy as np
+from numpy.typing import NDArray
+
+from windopt.domain.farm import Farm
+from windopt.domain.plan import YawPlan
+from windopt.domain.power_curve import STANDARD_AIR_DENSITY
+from windopt.domain.steering import Steering, yaw_problem
+from windopt.domain.turbine import require_not_negative, require_positive
+from windopt.domain.wind import Wind, WindForecast
+from windopt.domain.yaw_problem import YawProblem
+from windopt.errors import InvalidInput
+from windopt.planning.turbine_yaw import present_misalignments
+from windopt.planning.yaw import DEFAULT_METHOD, curve_of, judged_plan, method_named
+from windopt.result import Result, Status
+from windopt.wakes.farm import farm_power
+
+Floats = NDArray[np.float64]
+
+SPREAD = (0.1, 0.3, 0.5, 0.7, 0.9)
+"""Levels whose directions stand for a forecast's spread, each a fifth of what may come."""
+
+
+@dataclass(frozen=True)
+class Pace:
+    """How nacelles turn between the steps of a schedule.
+
+    Parameters
+    ----------
+    rate
+        How fast they turn at most [rad/s].
+    threshold
+        Gain in the farm's power, as a fraction of it, below which they stay where they are [-].
+    """
+
+    rate: float = radians(0.3)
+    threshold: float = 0.001
+
+    def __post_init__(self) -> None:
+        if not self.rate > 0:
+            raise InvalidInput("rate", "> 0 rad/s", self.rate)
+        require_not_negative("threshold", self.threshold)
+        if not isfinite(self.threshold):
+            raise InvalidInput("threshold", "to be finite", self.threshold)
+
+
+def plan_schedule(
+    farm: Farm,
+    forecast: WindForecast,
+    *,
+    nacelle: float | Sequence[float],
+    method: str = DEFAULT_METHOD,
+    steering: Steering | None = None,
+    pace: Pace | None = None,
+    air_density: float = STANDARD_AIR_DENSITY,
+    time_limit: float = 60.0,
+    seed: int = 0,
+) -> tuple[Result[YawPlan], ...]:
+    """Set the rotors of a farm for each step of a forecast.
+
+    Parameters
+    ----------
+    farm
+        The wind farm.
+    forecast
+        The winds to come; where it has quantiles, their directions are what a step is robust to.
+    nacelle
+        Where the nacelles face at present, clockwise from north [rad]: one direction for all
+        turbines, or one for each.
+    method, steering, air_density
+        As in :func:`windopt.plan_yaw`.
+    pace
+        How nacelles turn; by default 0.3 deg/s at most, and only for a gain of 0.1 %.
+    time_limit
+        Wall-clock limit of all steps together [s]. Ctrl-C ends the search; steps left hold the
+        nacelles or face the wind, whichever delivers more.
+    seed
+        Of whatever is drawn at random.
+    """
+    deadline = perf_counter() + time_limit
+    require_positive("air_density", air_density)
+    pace, steering = pace or Pace(), steering or Steering()
+    search = method_named(method)
+    starts = np.concatenate([[forecast.issued], forecast.time[:-1]])
+    seconds = (forecast.time - starts) / np.timedelta64(1, "s")
+    results: list[Result[YawPlan]] = []
+    for step, wind in enumerate(forecast.winds):
+        begin = perf_counter()
+        exposed = _exposed(steering, forecast, step)
+        present = np.array(present_misalignments(len(farm), wind, nacelle))
+        problem = yaw_problem(
+            farm, wind, exposed, curve_of, air_density=air_density, present=present
+        )
+        reached = _within_reach(problem, present, pace.rate * float(seconds[step]))
+        left = 0.0 if _stopped(results) else max(0.0, deadline - begin)
+        found = search(reached, time_limit=left / (len(forecast) - step), seed=seed)
+        if method != "algorithm-1":
+            found = _worth_it(reached, present, found, pace.threshold)
+        result = judged_plan(farm, wind, problem, exposed, found)
+        results.append(replace(result, runtime=perf_counter() - begin))
+        nacelle = [point.nacelle for point in result.found().set_points]
+    return tuple(results)
+
+
+def _exposed(steering: Steering, forecast: WindForecast, step: int) -> Steering:
+    """Return what the farm is steered under in one step: the directions the forecast spreads to.
+
+    Its speeds are left at their mean: the best misalignments hardly depend on them below the rated
+    power, and nothing is to be gained above.
+    """
+    if forecast.quantiles is None or steering.scenarios or steering.direction_std:
+        return steering
+    _, turns = forecast.quantiles.at(SPREAD)
+    speed, theta = float(forecast.speed[step]), float(forecast.theta_met[step])
+    winds = (Wind.from_met(speed, np.degrees(theta + turn)) for turn in turns[step].tolist())
+    return replace(steering, scenarios=tuple((wind, 1 / len(SPREAD)) for wind in winds))
+
+
+def _within_reach(problem: YawProblem, present: Floats, reach: float) -> YawProblem:
+    """Bound the misalignments by how far [rad] nacelles turn from the present ones.
+
+    Where the wind has left a nacelle so far behind that it cannot come within its bounds in time,
+    the bound nearest to it stands.
+    """
+    if reach >= pi:
+        return problem
+    lower = np.clip(present - reach, problem.lower, problem.upper)
+    upper = np.clip(present + reach, problem.lower, problem.upper)
+    return problem.between(lower, upper)
+
+
+def _worth_it(
+    problem: YawProblem, present: Floats, found: Result[Floats], threshold: float
+) -> Result[Floats]:
+    """Hold the nacelles, or face the wind, where what was found delivers hardly more."""
+    held = np.clip(present, problem.lower, problem.upper)
+    kept, faced = (float(p) for p in farm_power(problem, np.array([held, problem.facing])))
+    power = -inf if found.solution is None else float(farm_power(problem, found.solution))
+    if max(power, faced) <= kept * (1 + threshold):
+        return replace(found, solution=held, objective=kept)
+    return found if power >= faced else replace(found, solution=problem.facing, objective=faced)
+
+
+def _stopped(results: Sequence[Result[YawPlan]]) -> bool:
+    return any(result.status is Status.INTERRUPTED for result in results)
