@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 from itertools import pairwise
-from math import isclose, isfinite, isnan
+from math import inf, isclose, isfinite, isnan
 from typing import Any
 
 from windopt.checking.inspection import check_inspection
@@ -73,8 +73,8 @@ def _promises(result: Result[Any]) -> Iterator[str]:
     overstated = result.bound - value if flights else value - result.bound
     if isnan(result.bound) or overstated > slack:
         yield f"the bound of {result.bound:.9g} does not bound the objective of {value:.9g}"
-    if isinstance(plan, YawPlan) and result.bound < power_to_beat(plan) * (1 - TOLERANCE):
-        possible = power_to_beat(plan)
+    possible = power_to_beat(plan) if isinstance(plan, YawPlan) else -inf
+    if result.bound < possible * (1 - TOLERANCE):
         yield f"the bound of {result.bound:.9g} W is below the {possible:.9g} W possible"
     if not result.asked_gap >= 0:
         yield f"a gap of {result.asked_gap:.3g} cannot have been asked for"

@@ -1,6 +1,7 @@
 """The farm's yaw problem in numbers: what every method of wake steering takes."""
 
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from math import inf, isfinite
 
 import numpy as np
@@ -136,7 +137,7 @@ class YawProblem:
         """The allowed misalignments nearest to facing the wind [rad], shape ``(n,)``."""
         return np.minimum(np.maximum(0.0, self.lower), self.upper)
 
-    @property
+    @cached_property
     def unwaked(self) -> Floats:
         """The most that each turbine delivers in each wind without wakes [W], shape ``(S, n)``.
 
