@@ -8,9 +8,10 @@ import pytest
 import windopt
 from windopt.checking import tails
 from windopt.checking.certificate import check_certificate
-from windopt.domain.certificate import Case, Proof, Sent, Together
+from windopt.domain.certificate import Case, Sent, Together
 from windopt.domain.farm import Farm
 from windopt.domain.fleet import Fleet, Station, Uav
+from windopt.domain.plan import Unreachable
 from windopt.domain.turbine import Turbine
 from windopt.domain.wind import Wind
 from windopt.errors import InvalidInput
@@ -69,8 +70,28 @@ def inflated(certificate, bound, rng):
     proof = certificate.proof
     return replace(
         certificate,
-        proof=Proof(bound, raised(proof.prices), proof.neighbours, all_raised(proof.case)),
+        proof=replace(proof, bound=bound, prices=raised(proof.prices), case=all_raised(proof.case)),
     )
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_plans_that_leave_turbines_out_are_proved_too(seed):
+    whole, rng = random_result(seed, most=7).found(), np.random.default_rng(seed)
+    stations = (replace(whole.fleet.stations[0], max_flights=1), *whole.fleet.stations[1:])
+    worth = rng.uniform(0, 800, len(whole.farm)).tolist() if seed % 2 else None
+    names = whole.fleet.names
+    assignment = {
+        name: (names[i % len(names)], names[0]) for i, name in enumerate(whole.farm.names)
+    }
+    result = plan_inspection(
+        whole.farm, Fleet(stations), whole.wind, method="exact", dwell=whole.dwell, worth=worth,
+        assignment=assignment if seed % 3 else None,
+    )  # fmt: skip
+    certificate = certify(result)
+    assert windopt.check(result, certificate).passed
+    bound = result.objective * (1 + 1e-4)
+    forged = inflated(certificate, bound, rng)
+    assert not check_certificate(result.solution, bound, forged).passed
 
 
 @pytest.fixture(scope="module")
@@ -178,9 +199,9 @@ def test_a_certificate_is_about_one_farm_one_fleet_and_one_wind():
     fleet = Fleet(tuple(replace(each, uav=Uav(airspeed=25.0)) for each in plan.fleet.stations))
     for other in calm, moved, replace(plan, fleet=fleet):
         assert check_certificate(other, result.bound, certificate).violations
-    fewer = replace(plan, flights=plan.flights[1:])
+    fewer = replace(plan, unreachable=(Unreachable("T0", "too far"),))
     (violation,) = check_certificate(fewer, result.bound, certificate).violations
-    assert violation == "it is not about the turbines that the plan visits"
+    assert violation == "it is not about the turbines within reach"
     renamed = Fleet(tuple(replace(each, name=f"{each.name}!") for each in plan.fleet.stations))
     (violation,) = check_certificate(replace(plan, fleet=renamed), 0.0, certificate).violations
     assert violation == "it is not about the stations of the plan"

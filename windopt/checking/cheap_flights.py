@@ -114,9 +114,14 @@ def _cheap_flights_of(market: Market) -> tuple[Floats, Words]:
 
 
 def cheap_flights(
-    times: Sequence[Times], prices: Floats, neighbours: Sequence[Sequence[int]], limit: float
+    times: Sequence[Times],
+    prices: Floats,
+    neighbours: Sequence[Sequence[int]],
+    limits: Sequence[float],
+    *,
+    apart: bool = False,
 ) -> FlightList:
-    """Return all flights whose time exceeds the prices of their turbines by at most ``limit``.
+    """Return all flights whose time exceeds the prices of their turbines by little.
 
     Parameters
     ----------
@@ -126,10 +131,14 @@ def cheap_flights(
         Of a visit to each turbine [s], shape ``(n,)``.
     neighbours
         Turbines near each turbine; better ones make this quicker.
+    limits
+        By how much it may [s], for each station.
+    apart
+        Whether it matters which station a flight is from.
 
     Returns
     -------
-    The fastest over each set of turbines.
+    The fastest over each set of turbines, or the fastest of each station.
 
     Raises
     ------
@@ -140,8 +149,9 @@ def cheap_flights(
     for i, others in enumerate(neighbours):
         for j in others:
             put(near, i, j)
-    flights = [_cheap_flights_of(Market(each, prices, near, limit)) for each in times]
+    each = zip(times, limits, strict=True)
+    flights = [_cheap_flights_of(Market(legs, prices, near, limit)) for legs, limit in each]
     time = np.concatenate([time for time, _ in flights])
     visited = np.concatenate([visited for _, visited in flights])
     station = np.repeat(np.arange(len(times)), [len(time) for time, _ in flights])
-    return fastest_of_each_set(FlightList(time, station, visited, len(prices)))
+    return fastest_of_each_set(FlightList(time, station, visited, len(prices)), apart=apart)

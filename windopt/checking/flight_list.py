@@ -1,4 +1,4 @@
-"""A list of flights, one for each set of turbines, and their reduced costs."""
+"""A list of flights, one for each set of turbines or of each station, and their reduced costs."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -17,7 +17,7 @@ PART = 1 << 14
 
 @dataclass(frozen=True, eq=False)
 class FlightList:
-    """Flights, one for each set of turbines.
+    """Flights over sets of turbines.
 
     Parameters
     ----------
@@ -55,12 +55,12 @@ class FlightList:
         visits: Bools = self.visited[:, i >> 6] >> np.uint64(i & 63) & np.uint64(1) == 1
         return visits
 
-    def complete(self) -> bool:
-        """Tell whether every turbine is visited by some flight."""
+    def visited_at_all(self) -> Bools:
+        """Return whether any flight visits each turbine, shape ``(n,)``."""
         visited = np.zeros(self.n, bool)
         for part in self._parts():
             visited |= part.members.any(axis=0)
-        return bool(visited.all())
+        return visited
 
     def reduced_costs(self, given: Round) -> Floats:
         """Return the time of each flight, less what it earns and plus what it pays [s]."""
@@ -84,9 +84,10 @@ def _earned(members: Bools, given: Round) -> Floats:
     return earned
 
 
-def fastest_of_each_set(flights: FlightList) -> FlightList:
-    """Return the fastest flight over each set of turbines, whatever its station."""
-    return flights.kept(fastest(flights.time, flights.visited))
+def fastest_of_each_set(flights: FlightList, *, apart: bool) -> FlightList:
+    """Return the fastest flight over each set of turbines, or of each station if ``apart``."""
+    keys = (flights.visited, flights.station) if apart else (flights.visited,)
+    return flights.kept(fastest(flights.time, *keys))
 
 
 def fastest(time: Floats, *keys: NDArray[np.generic]) -> NDArray[np.intp]:

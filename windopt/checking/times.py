@@ -12,6 +12,7 @@ from windopt.domain.fleet import Station
 from windopt.domain.plan import InspectionPlan, SpeedRule
 
 Floats = NDArray[np.float64]
+Bools = NDArray[np.bool_]
 
 ROUNDING = 1e-9
 """Relative; what a flight may last beyond t_max, as where flights are checked."""
@@ -53,11 +54,21 @@ def times_of_legs(plan: InspectionPlan, turbines: Sequence[str]) -> list[Times]:
     for station in plan.fleet.stations:
         home = [(station.x, station.y)]
         out = _matrix(home, stops, plan, station)[0] + dwell
-        back = _matrix(stops, home, plan, station)[:, 0]
+        back = _matrix(stops, home, plan, station)[:, 0].copy()
         legs = between[station.uav] + dwell
         np.fill_diagonal(legs, inf)
-        made.append(Times(out, back.copy(), legs, station.uav.t_max * (1 + ROUNDING)))
+        forbidden = ~_allowed(plan, turbines, station)
+        out[forbidden] = back[forbidden] = legs[forbidden] = legs[:, forbidden] = inf
+        made.append(Times(out, back, legs, station.uav.t_max * (1 + ROUNDING)))
     return made
+
+
+def _allowed(plan: InspectionPlan, turbines: Sequence[str], station: Station) -> Bools:
+    """Return whether a station may inspect each of ``turbines``."""
+    if plan.assignment is None:
+        return np.ones(len(turbines), bool)
+    assigned = dict(zip(plan.farm.names, plan.assignment, strict=True))
+    return np.array([station.name in assigned[name] for name in turbines], bool)
 
 
 def _matrix(

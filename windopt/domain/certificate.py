@@ -119,9 +119,9 @@ class Proof:
     ----------
     bound
         What is proved [s].
-    prices
-        Of a visit to each turbine [s], shape ``(n,)``: no flight at all has a negative reduced
-        cost.
+    prices, tolls
+        Of a visit to each turbine, shape ``(n,)``, and of a flight as in a round [s]: no flight at
+        all has a negative reduced cost.
     neighbours
         A hint that makes it quick to verify this: turbines near each turbine.
     case
@@ -130,6 +130,7 @@ class Proof:
 
     bound: float
     prices: NDArray[np.float64]
+    tolls: NDArray[np.float64]
     neighbours: tuple[tuple[int, ...], ...]
     case: Case = Case()
 
@@ -138,6 +139,7 @@ class Proof:
         if not 0 <= self.bound < np.inf:
             raise InvalidInput("bound", "to be a finite number >= 0", self.bound)
         _require_finite("prices", self.prices)
+        _require_finite("tolls", self.tolls)
         if len(self.neighbours) != n:
             raise InvalidInput("neighbours", f"of {n} turbines", f"{len(self.neighbours)}")
         for i in (i for near in self.neighbours for i in near):
@@ -161,18 +163,21 @@ class Certificate:
 
     def __post_init__(self) -> None:
         n, k = len(self.turbines), len(self.stations)
-        if len(self.proof.prices) != n:
-            raise InvalidInput("prices", f"of {n} turbines", len(self.proof.prices))
+        _require_sizes(self.proof, n, k)
         for case in self.proof.case.all():
             for each in case.rounds:
-                if len(each.prices) != n or len(each.tolls) != k + 1:
-                    got = f"{len(each.prices)} and {len(each.tolls)}"
-                    raise InvalidInput("a round", f"of {n} prices and {k + 1} tolls", got)
+                _require_sizes(each, n, k)
             asked = case.question
             if isinstance(asked, Together) and not 0 <= asked.first < asked.second < n:
                 raise InvalidInput("together", f"to be two turbines, from 0 to {n - 1}", asked)
             if isinstance(asked, Sent) and not 0 <= asked.station <= k:
                 raise InvalidInput("station", f"from 0 to {k}", asked.station)
+
+
+def _require_sizes(given: Proof | Round, n: int, k: int) -> None:
+    got = len(given.prices), len(given.tolls)
+    if got != (n, k + 1):
+        raise InvalidInput("prices and tolls", f"of {n} turbines and {k} stations and all", got)
 
 
 def _require_finite(field: str, values: NDArray[np.float64]) -> None:

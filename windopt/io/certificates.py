@@ -51,6 +51,7 @@ def certificate_record(certificate: Certificate) -> Record:
         "turbines": list(certificate.turbines),
         "stations": list(certificate.stations),
         "prices": proof.prices.tolist(),
+        "tolls": proof.tolls.tolist(),
         "neighbours": [list(near) for near in proof.neighbours],
         "case": _case_record(proof.case, len(certificate.stations)),
     }
@@ -104,6 +105,7 @@ def certificate_from_record(document: Any) -> Certificate:
     proof = Proof(
         record["bound"].number,
         np.array(record["prices"].numbers),
+        np.array(record["tolls"].numbers),
         tuple(tuple(_whole(i) for i in near) for near in record["neighbours"]),
         case,
     )

@@ -6,7 +6,9 @@ from windopt.domain.certificate import Certificate
 from windopt.domain.plan import InspectionPlan
 from windopt.domain.routing import Route
 from windopt.errors import InvalidInput
+from windopt.planning.assignment import assigned_to
 from windopt.planning.reach import restricted, routing_instance
+from windopt.planning.worth import weighed
 from windopt.result import Result
 
 
@@ -41,8 +43,8 @@ def certify(
     plan = result.found()
     if not isfinite(result.bound):
         raise InvalidInput("bound", "to be proved, for a certificate", result.bound)
-    visited = {name for flight in plan.flights for name in flight.turbines}
-    reached = [i for i, name in enumerate(plan.farm.names) if name in visited]
+    beyond = {unreachable.turbine for unreachable in plan.unreachable}
+    reached = [i for i, name in enumerate(plan.farm.names) if name not in beyond]
     turbines = tuple(plan.farm.names[i] for i in reached)
     routes = tuple(
         Route(plan.fleet.names.index(flight.station), tuple(map(turbines.index, flight.turbines)))
@@ -51,6 +53,7 @@ def certify(
     everything = routing_instance(
         plan.farm, plan.fleet, plan.wind, dwell=plan.dwell, rule=plan.rule
     )
-    instance = restricted(everything, reached)
+    assigned = assigned_to(everything, plan.fleet, plan.assignment)
+    instance = restricted(weighed(assigned, plan.fleet, plan.worth), reached)
     proof = prove(instance, routes, result.bound, time_limit=time_limit, memory=memory)
     return Certificate(turbines, plan.fleet.names, proof)

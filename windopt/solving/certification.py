@@ -11,8 +11,7 @@ import numpy as np
 
 from windopt.domain.certificate import Proof
 from windopt.domain.routing import Route, RoutingInstance
-from windopt.errors import InvalidInput
-from windopt.solving.exact.cases import CLOSED, MARGIN, Left, prove
+from windopt.solving.exact.cases import CLOSED, MARGIN, Left, as_round, prove
 from windopt.solving.exact.clock import Clock, OutOfTime
 from windopt.solving.exact.enumeration import enumerate_flights
 from windopt.solving.exact.pool import Pool, reduced_costs
@@ -50,19 +49,12 @@ def certify(
     Returns
     -------
     The proof, of a lower bound where time or memory ran out.
-
-    Raises
-    ------
-    InvalidInput
-        If the plan may leave turbines out for a prize: such proofs cannot be told yet.
     """
-    if instance.prize is not None:
-        raise InvalidInput("prize", "none where a bound is certified", instance.prize)
     with Clock(time_limit) as clock:
         search = Search(instance, clock)
         search.offer([(route.station, route.turbines) for route in routes])
         n = len(instance.turbines)
-        proof = Proof(0.0, np.zeros(n), ((),) * n)
+        proof = Proof(0.0, np.zeros(n), np.zeros(len(instance.t) + 1), ((),) * n)
         if n == 0:
             return proof
         try:
@@ -84,24 +76,25 @@ def _relaxation(search: Search, memory: float) -> Relaxation:
 
 def _over_all_flights(relaxation: Relaxation, bound: float) -> Proof:
     """Return what the relaxation proves; prices are lowered until no reduced cost is negative."""
-    prices = (relaxation.duals.pi + relaxation.least) * relaxation.search.unit
-    sets = relaxation.pricer.neighbourhoods.sets
-    neighbours = tuple(tuple(sorted(near)) for near in sets)
-    return Proof(max(0.0, min(bound, float(prices.sum()))), prices, neighbours)
+    search, duals = relaxation.search, relaxation.duals
+    lowered = replace(duals, pi=duals.pi + relaxation.least)
+    given = as_round(lowered, np.zeros((0, 3), np.int64), relaxation.counts, search.unit)
+    neighbours = tuple(tuple(sorted(near)) for near in relaxation.pricer.neighbourhoods.sets)
+    value = lowered.value(relaxation.counts) * search.unit
+    return Proof(max(0.0, min(bound, value)), given.prices, given.tolls, neighbours)
 
 
 def _over_a_list(proof: Proof, relaxation: Relaxation, bound: float) -> Proof:
     """List the flights within the gap, or a part of it, and prove as much over these."""
-    search, value = relaxation.search, float(proof.prices.sum())
-    gap = bound - value
+    search, gap = relaxation.search, bound - proof.bound
     if gap <= CLOSED * bound:
         return replace(proof, bound=bound)
     fixing = relaxation.fix_arcs(ceiling=(bound + 2 * MARGIN * bound) / search.unit)
     if fixing is None:
         return proof
     for share in SHARES:
-        target = (value + share * gap) / search.unit
-        pool = _listed(relaxation, fixing, target * (1 + MARGIN) - value / search.unit)
+        target = (proof.bound + share * gap) / search.unit
+        pool = _listed(relaxation, fixing, target * (1 + MARGIN) - proof.bound / search.unit)
         if pool is not None:
             case = prove(_all_left(pool, relaxation), target, search)
             return replace(proof, bound=target * search.unit, case=case)
@@ -111,8 +104,10 @@ def _over_a_list(proof: Proof, relaxation: Relaxation, bound: float) -> Proof:
 def _listed(relaxation: Relaxation, fixing: Fixing, gap: float) -> Pool | None:
     """Return the flights of a reduced cost up to ``gap``."""
     networks = fixing.useful(relaxation.pricer.networks, gap)
-    clock = relaxation.search.clock
-    return enumerate_flights(networks, fixing, gap, EFFORT, relaxation.memory, clock)
+    search, memory = relaxation.search, relaxation.memory
+    return enumerate_flights(
+        networks, fixing, gap, EFFORT, memory, search.clock, apart=search.limited
+    )
 
 
 def _all_left(pool: Pool, relaxation: Relaxation) -> Left:

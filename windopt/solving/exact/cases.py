@@ -65,19 +65,20 @@ class Left:
         """Return the case with the flights ``keep`` alone."""
         return replace(self, pool=self.pool.kept(keep), reduced=self.reduced[keep])
 
-    def impossible(self, n: int) -> bool:
-        """Tell whether some turbine, or some station that must send a flight, has none."""
+    def impossible(self, search: Search) -> bool:
+        """Tell whether a turbine that needs one, or a station that must send one, has no flight."""
         sent = np.bincount(self.pool.station, minlength=len(self.counts) - 1)
         lacking = (self.counts[:-1, 0] > 0) & (sent == 0)
-        return bool(lacking.any() or not self.pool.members(n).any(axis=0).all())
+        visited = self.pool.members(search.n).any(axis=0)
+        return bool(lacking.any() or (np.isinf(search.prize) & ~visited).any())
 
 
 def prove(left: Left, target: float, search: Search) -> Case:
     """Prove that no plan over the flights ``left`` takes less than ``target``."""
-    if left.impossible(search.n):
+    if left.impossible(search):
         return Case()
     rounds, left, flown = _rounds(left, target, search)
-    if flown is None or left.impossible(search.n):
+    if flown is None or left.impossible(search):
         return Case(rounds)
     question, yes, no = _ask(left, flown)
     return Case(rounds, question, prove(yes, target, search), prove(no, target, search))
@@ -127,7 +128,7 @@ def _rounds(
     inside = np.zeros(len(left.pool), bool)
     inside[np.argsort(left.reduced, kind="stable")[:FIRST]] = True
     pool, counts = left.pool, left.counts
-    selection = Selection(search.n, counts, left.triples, np.full(search.n, target))
+    selection = Selection(search.n, counts, left.triples, np.minimum(search.prize, target))
     selection.add(pool.kept(inside))
     rounds: list[Round] = []
     recorded, before = np.inf, -np.inf
@@ -140,7 +141,7 @@ def _rounds(
         helps = not closed and value - before >= HELPFUL * gap
         rows = _violated(flown) if helps else selection.triples[:0]
         if closed or not len(rows) or gap < SHRUNK * recorded:
-            rounds.append(_round(duals, selection.triples, search.unit))
+            rounds.append(as_round(duals, selection.triples, counts, search.unit))
             recorded = gap
             keep = reduced <= gap + MARGIN * target
             pool, reduced, inside = pool.kept(keep), reduced[keep], inside[keep]
@@ -163,11 +164,20 @@ def _violated(flown: Flown) -> Triples:
     return triples[spread(triples, violation, len(visits), ROWS, EACH)]
 
 
-def _round(duals: Duals, triples: Triples, unit: float) -> Round:
-    """Return duals as a round, in seconds."""
+def as_round(duals: Duals, triples: Triples, counts: Floats, unit: float) -> Round:
+    """Return duals as a round, in seconds.
+
+    Parameters
+    ----------
+    triples
+        The subset row of each of ``duals.penalty``.
+    unit
+        Seconds in which the duals are counted.
+    """
     penalties = np.round(duals.penalty * unit, DECIMALS)
     paid = penalties > 0
     prices, tolls = np.round(duals.pi * unit, DECIMALS), np.round(duals.sigma * unit, DECIMALS)
+    tolls[(tolls < 0) & np.isinf(counts[:, 1])] = 0.0
     return Round(prices, tolls, triples[paid], penalties[paid])
 
 
