@@ -6,6 +6,7 @@ from benchmarks.case import Problem
 
 PROBLEMS = {
     "routing": "benchmarks.routing",
+    "yaw": "benchmarks.yaw",
 }
 """Module of each problem, whose ``PROBLEM`` describes it."""
 
