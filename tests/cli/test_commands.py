@@ -200,7 +200,8 @@ def test_a_broken_plan_fails_its_check_with_code_1(windopt, folder):
     ],
 )
 def test_a_record_edited_by_hand_fails_its_check(windopt, folder, command, edit, sentence):
-    record = json.loads(windopt(command, "farm.csv", *WIND, "--json")[1])
+    method = ("--method", "algorithm-2") if command == "inspect" else ()
+    record = json.loads(windopt(command, "farm.csv", *WIND, *method, "--json")[1])
     (folder / "edited.json").write_text(json.dumps({**record, **edit}), encoding="utf-8")
     code, _, err = windopt("check", "edited.json")
     assert code == 1
@@ -287,7 +288,7 @@ def test_a_farm_that_cannot_be_read_is_named_with_code_2(windopt, folder, name, 
 
 
 def test_the_demo_plans_the_built_in_farm(windopt, folder):
-    code, out, _ = windopt("demo", "--out", "demo")
+    code, out, _ = windopt("demo", "--out", "demo", "--time-limit", "2")
     assert code == 0
     assert "check demo/plan.json" in out
     written = {path.name for path in (folder / "demo").iterdir()}

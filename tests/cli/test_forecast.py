@@ -57,7 +57,7 @@ def test_a_plan_can_use_a_model_of_ones_own(windopt, tmp_path):
     train = "forecast", "train", MONTH, "--units", "4", "--epochs", "1", "--out", "own.npz"
     assert windopt(*train)[0] == 0
     assert windopt(*train)[0] == 2
-    command = "plan", "Walney", "--wind", MONTH, "--time", "2009-01-10T14:00"
+    command = "plan", "Walney", "--wind", MONTH, "--time", "2009-01-10T14:00", "--time-limit", "5"
     code, _, err = windopt(*command, "--forecaster", "own.npz", "--out", "out")
     assert code == 0, err
     assert windopt("check", "out/plan.json")[0] == 0

@@ -6,6 +6,7 @@ import numpy as np
 import typer
 
 from windopt.cli import options as opt
+from windopt.cli.compiling import tell_of_compiling
 from windopt.cli.files import require_free, write_folder
 from windopt.cli.outcome import exit_code, print_record
 from windopt.cli.terminal import note, progress, say, show_plan
@@ -20,7 +21,7 @@ FOLDER = Path("windopt-demo")
 
 def demo(
     method: opt.RoutingMethod = DEFAULT_METHOD,
-    time_limit: opt.TimeLimit = 60.0,
+    time_limit: opt.TimeLimit = 30.0,
     seed: opt.Seed = 0,
     json: opt.Json = False,
     out: opt.Out = FOLDER,
@@ -30,6 +31,7 @@ def demo(
     folder = out or FOLDER
     require_free(folder, force=force)
     farm, series = built_in_farm(), built_in_series()
+    tell_of_compiling(method)
     with progress(f"Planning {farm.name} at {TIME}") as update:
         made = plan(
             farm,

@@ -4,6 +4,7 @@ import typer
 
 from windopt.cli import options as opt
 from windopt.cli.certificate import require_new, write_proof
+from windopt.cli.compiling import tell_of_compiling
 from windopt.cli.files import require_free, write_folder
 from windopt.cli.flight_options import FlightOptions, UavOptions
 from windopt.cli.outcome import exit_code, print_record
@@ -35,6 +36,7 @@ def inspect(
     note(site.notes)
     based = flights.fleet(site, uav.uav)
     asked = flights.asked(site, based)
+    tell_of_compiling(flights.method)
     with progress(f"Planning flights for {site.name} by {flights.method}") as update:
         result = plan_inspection(site, based, wind, **asked, progress=update)
     if json:

@@ -6,6 +6,7 @@ from typing import Annotated
 import typer
 
 from windopt.cli import options as opt
+from windopt.cli.compiling import tell_of_compiling
 from windopt.cli.files import require_free, write_folder
 from windopt.cli.flight_options import FlightOptions, UavOptions
 from windopt.cli.outcome import exit_code, print_record
@@ -61,6 +62,7 @@ def plan(
     note((*site.notes, *series.notes))
     based = flights.fleet(site, uav.uav)
     asked = flights.asked(site, based)
+    tell_of_compiling(flights.method)
     with progress(f"Planning {site.name}") as update:
         made = make_plan(
             site,

@@ -34,7 +34,7 @@ from windopt.planning.worth import turbines_left_out, weighed, worth_per_turbine
 from windopt.result import Result, Status
 from windopt.trace import Progress, Recorder
 
-DEFAULT_METHOD = "algorithm-2"
+DEFAULT_METHOD = "exact"
 
 
 def plan_inspection(

@@ -64,7 +64,7 @@ class Rounds:
         self.cost, self.offset = np.array(lp.col_cost_), lp.offset_
         self.rows = rows(lp)  # Those added later are of ``cuts``, which is asked anyway.
         self.whole = np.array(
-            [kind != highspy.HighsVarType.kContinuous for kind in lp.integrality_]
+            [kind != highspy.HighsVarType.kContinuous for kind in lp.integrality_], dtype=bool
         )
         self.column = np.array([v.index for v in self.program.x.flat], dtype=np.int32)
 
