@@ -5,7 +5,6 @@ from typing import Annotated
 
 import typer
 
-from windopt.io.turbines import BUILT_IN
 from windopt.planning.plan import FORECASTERS
 from windopt.planning.routing_methods import METHODS
 from windopt.planning.turbine_yaw import POWER_COEFFICIENTS
@@ -74,23 +73,3 @@ PowerCoefficient = Annotated[
     ),
 ]
 AirDensity = Annotated[float, typer.Option(help="Air density [kg/m3].")]
-TurbineName = Annotated[
-    str | None,
-    typer.Option(
-        metavar="NAME|FILE",
-        help=f"Turbine for the whole farm: one of {', '.join(BUILT_IN)}, or a FLORIS or windIO "
-        "YAML file; by default the farm's own.",
-    ),
-]
-Turbulence = Annotated[
-    float | None, typer.Option(help="Ambient turbulence intensity; by default 0.06.")
-]
-Bounds = Annotated[
-    tuple[float, float] | None,
-    typer.Option(help="Least and largest misalignment [deg]; by default -25 25."),
-]
-DirectionStd = Annotated[
-    float | None,
-    typer.Option(help="Standard deviation of the wind's direction [deg]; by default 0."),
-]
-FarmCap = Annotated[float | None, typer.Option(help="The most the grid takes [MW].")]

@@ -7,17 +7,16 @@ import typer
 
 from windopt.cli import options as opt
 from windopt.cli.compiling import tell_of_compiling
+from windopt.cli.farm_options import RotorOptions, SteeringOptions
 from windopt.cli.files import require_free, write_folder
 from windopt.cli.flight_options import FlightOptions, UavOptions
 from windopt.cli.outcome import exit_code, print_record
-from windopt.cli.steering import given_steering
 from windopt.cli.terminal import note, progress, show_plan
 from windopt.cli.times import parsed
 from windopt.cli.unfolded import unfolded
 from windopt.domain.farm import Farm
 from windopt.domain.power_curve import STANDARD_AIR_DENSITY
 from windopt.domain.wind import WindSeries
-from windopt.io.turbines import load_turbine_type
 from windopt.planning.plan import DEFAULT_FORECASTER
 from windopt.planning.plan import plan as make_plan
 from windopt.planning.yaw import DEFAULT_METHOD as DEFAULT_YAW_METHOD
@@ -34,17 +33,13 @@ def plan(
     time: opt.Time = None,
     forecaster: opt.ForecasterName = DEFAULT_FORECASTER,
     yaw_method: opt.YawMethod = DEFAULT_YAW_METHOD,
-    turbine: opt.TurbineName = None,
-    turbulence: opt.Turbulence = None,
-    bounds: opt.Bounds = None,
-    direction_std: opt.DirectionStd = None,
-    farm_cap: opt.FarmCap = None,
     air_density: opt.AirDensity = STANDARD_AIR_DENSITY,
-    power_coefficient: opt.PowerCoefficient = None,
     time_column: opt.Column = "",
     speed_column: opt.Column = "",
     direction_column: opt.Column = "",
     *,
+    rotors: RotorOptions,
+    steered: SteeringOptions,
     flights: FlightOptions,
     uav: UavOptions,
     json: opt.Json = False,
@@ -54,11 +49,7 @@ def plan(
     """Forecast the wind, set the turbines for each step ahead and plan the flights."""
     require_free(out, force=force)
     series = WindSeries.read(wind, time=time_column, speed=speed_column, direction=direction_column)
-    site = Farm.load(farm)
-    if turbine is not None:
-        site = site.with_turbine_type(load_turbine_type(turbine))
-    if power_coefficient is not None:
-        site = site.with_power_coefficient(power_coefficient)
+    site = rotors.equipped(Farm.load(farm))
     note((*site.notes, *series.notes))
     based = flights.fleet(site, uav.uav)
     asked = flights.asked(site, based)
@@ -71,7 +62,7 @@ def plan(
             time=parsed(time),
             forecaster=forecaster,
             yaw_method=yaw_method,
-            steering=given_steering(turbulence, bounds, direction_std, farm_cap),
+            steering=steered.steering,
             air_density=air_density,
             **asked,
             progress=update,

@@ -7,16 +7,15 @@ from typing import Annotated
 import typer
 
 from windopt.cli import options as opt
+from windopt.cli.farm_options import RotorOptions, SteeringOptions
 from windopt.cli.files import require_free, write_folder
 from windopt.cli.outcome import exit_code, print_record
-from windopt.cli.steering import given_steering
 from windopt.cli.terminal import note, progress, show_yaw
+from windopt.cli.unfolded import unfolded
 from windopt.domain.farm import Farm
 from windopt.domain.power_curve import STANDARD_AIR_DENSITY
-from windopt.domain.steering import Steering
 from windopt.domain.wind import Wind
 from windopt.errors import InvalidInput
-from windopt.io.turbines import load_turbine_type
 from windopt.planning.turbine_yaw import AIR_DENSITY, plan_turbine_yaw
 from windopt.planning.yaw import DEFAULT_METHOD, plan_yaw
 
@@ -49,22 +48,20 @@ WakeModel = Annotated[
 ]
 
 
+@unfolded
 def yaw(
     farm: opt.FarmName,
     wind_speed: opt.WindSpeed,
     wind_direction: opt.WindDirection,
     method: opt.YawMethod = DEFAULT_METHOD,
     wakes: WakeModel = Wakes.GAUSS,
-    turbine: opt.TurbineName = None,
-    turbulence: opt.Turbulence = None,
-    bounds: opt.Bounds = None,
-    direction_std: opt.DirectionStd = None,
-    farm_cap: opt.FarmCap = None,
     nacelle: Nacelle = None,
     air_density: AirDensity = None,
-    power_coefficient: opt.PowerCoefficient = None,
     time_limit: opt.TimeLimit = 60.0,
     seed: opt.Seed = 0,
+    *,
+    rotors: RotorOptions,
+    steered: SteeringOptions,
     json: opt.Json = False,
     out: opt.Out = None,
     force: opt.Force = False,
@@ -72,14 +69,9 @@ def yaw(
     """Turn every rotor so that, under the wakes of the others, the farm delivers the most power."""
     require_free(out, force=force)
     wind = Wind.from_met(wind_speed, wind_direction)
-    site = Farm.load(farm)
-    if turbine is not None:
-        site = site.with_turbine_type(load_turbine_type(turbine))
-    if power_coefficient is not None:
-        site = site.with_power_coefficient(power_coefficient)
+    site = rotors.equipped(Farm.load(farm))
     note(site.notes)
-    steering = given_steering(turbulence, bounds, direction_std, farm_cap)
-    if wakes is Wakes.NONE and steering != Steering():
+    if wakes is Wakes.NONE and steered != SteeringOptions():
         raise InvalidInput("--wakes", "gauss where a farm is steered by other options too", wakes)
     present = None if nacelle is None else radians(nacelle)
     with progress(f"Setting {len(site)} turbines of {site.name} by {method}"):
@@ -88,7 +80,7 @@ def yaw(
                 site,
                 wind,
                 method=method,
-                steering=steering,
+                steering=steered.steering,
                 nacelle=present,
                 air_density=STANDARD_AIR_DENSITY if air_density is None else air_density,
                 time_limit=time_limit,

@@ -8,12 +8,12 @@ import typer
 from numpy.typing import NDArray
 
 from windopt.cli import options as opt
-from windopt.cli.steering import given_steering
+from windopt.cli.farm_options import RotorOptions, SteeringOptions
 from windopt.cli.terminal import counter, note, say
+from windopt.cli.unfolded import unfolded
 from windopt.domain.farm import Farm
 from windopt.domain.power_curve import STANDARD_AIR_DENSITY
 from windopt.errors import InvalidInput
-from windopt.io.turbines import load_turbine_type
 from windopt.io.whole_files import require_absent
 from windopt.io.yaw_tables import require_table_name, write_yaw_table
 from windopt.planning.yaw import DEFAULT_METHOD
@@ -28,32 +28,28 @@ TableFile = Annotated[Path, typer.Option("--out", help="File to write, .csv or .
 Jobs = Annotated[int, typer.Option(help="Processors at work; -1 for all.")]
 
 
+@unfolded
 def yaw_table(
     farm: opt.FarmName,
     out: TableFile,
     speeds: Speeds = "8",
     directions: Directions = "0:355:5",
     method: opt.YawMethod = DEFAULT_METHOD,
-    turbine: opt.TurbineName = None,
-    turbulence: opt.Turbulence = None,
-    bounds: opt.Bounds = None,
-    direction_std: opt.DirectionStd = None,
-    farm_cap: opt.FarmCap = None,
     air_density: opt.AirDensity = STANDARD_AIR_DENSITY,
     jobs: Jobs = -1,
     time_limit: opt.TimeLimit = 3600.0,
     seed: opt.Seed = 0,
     force: opt.Force = False,
+    *,
+    rotors: RotorOptions,
+    steered: SteeringOptions,
 ) -> None:
     """Tabulate the best misalignments over wind directions and speeds, in FLORIS's columns."""
     require_table_name(out)
     require_absent(out, force=force)
-    steering = given_steering(turbulence, bounds, direction_std, farm_cap)
     v = parsed_range("--speeds", speeds)
     theta = np.radians(np.unique(parsed_range("--directions", directions) % 360.0))
-    site = Farm.load(farm)
-    if turbine is not None:
-        site = site.with_turbine_type(load_turbine_type(turbine))
+    site = rotors.equipped(Farm.load(farm))
     note(site.notes)
     with counter(f"Tabulating {len(v) * len(theta)} winds over {site.name} by {method}") as done:
         result = plan_yaw_table(
@@ -61,7 +57,7 @@ def yaw_table(
             v,
             theta,
             method=method,
-            steering=steering,
+            steering=steered.steering,
             air_density=air_density,
             effort=Effort(jobs, time_limit, seed),
             done=done,

@@ -25,8 +25,10 @@ from windopt.domain.wind import Wind
 from windopt.domain.yaw_problem import YawProblem
 from windopt.errors import FailedCheck, InvalidInput
 from windopt.heuristics.algorithm_1 import face_or_hold
+from windopt.heuristics.serial_refine import serial_refine
 from windopt.planning.turbine_yaw import GAP, present_misalignments
 from windopt.result import Result, Status
+from windopt.solving.farm_yaw import steer
 from windopt.wakes.farm import expected_yield, farm_power
 
 Floats = NDArray[np.float64]
@@ -42,9 +44,13 @@ class YawMethod(Protocol):
     ) -> Result[NDArray[np.float64]]: ...
 
 
-METHODS: dict[str, YawMethod] = {"algorithm-1": face_or_hold}
+METHODS: dict[str, YawMethod] = {
+    "nlp": steer,
+    "serial-refine": serial_refine,
+    "algorithm-1": face_or_hold,
+}
 """Methods by the name they are chosen by."""
-DEFAULT_METHOD = "algorithm-1"
+DEFAULT_METHOD = "nlp"
 
 
 def method_named(name: str) -> YawMethod:

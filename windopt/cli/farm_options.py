@@ -1,0 +1,61 @@
+"""What farm is steered and under what, from options in the units people use."""
+
+from dataclasses import dataclass
+from math import inf, radians
+from typing import Annotated
+
+import typer
+
+from windopt.cli import options as opt
+from windopt.domain.farm import Farm
+from windopt.domain.steering import Steering
+from windopt.io.turbines import BUILT_IN, load_turbine_type
+
+TurbineName = Annotated[
+    str | None,
+    typer.Option(
+        metavar="NAME|FILE",
+        help=f"Turbine for the whole farm: one of {', '.join(BUILT_IN)}, or a FLORIS or windIO "
+        "YAML file; by default the farm's own.",
+    ),
+]
+Turbulence = Annotated[float, typer.Option(help="Ambient turbulence intensity.")]
+Bounds = Annotated[tuple[float, float], typer.Option(help="Least and largest misalignment [deg].")]
+DirectionStd = Annotated[
+    float, typer.Option(help="Standard deviation of the wind's direction [deg].")
+]
+FarmCap = Annotated[float | None, typer.Option(help="The most the grid takes [MW].")]
+
+
+@dataclass(frozen=True)
+class RotorOptions:
+    """The turbines of the farm, where they are not its own."""
+
+    turbine: TurbineName = None
+    power_coefficient: opt.PowerCoefficient = None
+
+    def equipped(self, farm: Farm) -> Farm:
+        """Return the farm with these turbines."""
+        if self.turbine is not None:
+            farm = farm.with_turbine_type(load_turbine_type(self.turbine))
+        if self.power_coefficient is not None:
+            farm = farm.with_power_coefficient(self.power_coefficient)
+        return farm
+
+
+@dataclass(frozen=True)
+class SteeringOptions:
+    """Under what a farm is steered."""
+
+    turbulence: Turbulence = Steering.turbulence
+    bounds: Bounds = (-25.0, 25.0)
+    direction_std: DirectionStd = 0.0
+    farm_cap: FarmCap = None
+
+    @property
+    def steering(self) -> Steering:
+        """The same in SI."""
+        lower, upper = map(radians, self.bounds)
+        cap = inf if self.farm_cap is None else 1e6 * self.farm_cap
+        spread = radians(self.direction_std)
+        return Steering(self.turbulence, lower, upper, spread, farm_cap=cap)
