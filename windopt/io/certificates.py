@@ -16,6 +16,9 @@ from windopt.io.whole_files import write_whole
 SCHEMA = "windopt/certificate"
 VERSION = 1
 
+DEEPEST = 200
+"""Cases within cases that are read; proofs have some ten."""
+
 
 def write_certificate(certificate: Certificate, path: str | Path, *, force: bool = False) -> Path:
     """Write a certificate, whole or not at all.
@@ -98,26 +101,25 @@ def certificate_from_record(document: Any) -> Certificate:
     if record["version"].value != VERSION:
         raise record["version"].refuse(f"to be {VERSION}")
     stations = tuple(record["stations"].texts)
-    try:
-        case = _case(record["case"], len(stations))
-    except RecursionError:
-        raise InvalidInput("case", "to hold fewer cases within cases", "too many") from None
     proof = Proof(
         record["bound"].number,
         np.array(record["prices"].numbers),
         np.array(record["tolls"].numbers),
         tuple(tuple(_whole(i) for i in near) for near in record["neighbours"]),
-        case,
+        _case(record["case"], len(stations)),
     )
     return Certificate(tuple(record["turbines"].texts), stations, proof)
 
 
-def _case(entry: Entry, k: int) -> Case:
+def _case(entry: Entry, k: int, depth: int = 0) -> Case:
+    if depth > DEEPEST:
+        raise InvalidInput("case", f"to hold cases within cases {DEEPEST} deep", "deeper ones")
     rounds = tuple(_round(each) for each in entry["rounds"])
     if "question" not in entry:
         return Case(rounds)
     question = _question(entry["question"], k)
-    return Case(rounds, question, _case(entry["yes"], k), _case(entry["no"], k))
+    yes, no = (_case(entry[answer], k, depth + 1) for answer in ("yes", "no"))
+    return Case(rounds, question, yes, no)
 
 
 def _round(entry: Entry) -> Round:
