@@ -5,10 +5,15 @@ import pytest
 from matplotlib.figure import Figure
 
 from windopt import plotting
+from windopt.domain.farm import Farm
+from windopt.domain.steering import Steering
+from windopt.domain.turbine import Turbine
 from windopt.domain.wind import Wind, WindSeries
+from windopt.errors import InvalidInput
 from windopt.io.built_in import built_in_farm, built_in_stations
 from windopt.planning.inspection import plan_inspection
 from windopt.planning.plan import plan
+from windopt.planning.turbine_yaw import plan_turbine_yaw
 from windopt.planning.yaw import plan_yaw
 
 WIND = Wind.from_met(8.0, 225.0)
@@ -34,8 +39,31 @@ def test_every_flight_is_a_closed_line(ax):
     assert all((line[0] == line[-1]).all() for line in lines)
 
 
+STEERED = plan_yaw(
+    Farm("Row", tuple(Turbine(f"T{i}", 800.0 * i, 0.0) for i in range(3))),
+    Wind.from_met(8.0, 272.0),
+    steering=Steering(direction_std=0.05),
+).found()
+
+
+@pytest.mark.parametrize("draw", [plotting.plot_wakes, plotting.plot_facing_wakes])
+def test_wakes_are_drawn_as_wind_speeds_between_rotors(ax, draw):
+    assert draw(STEERED, ax) is ax
+    assert (ax.get_xlabel(), ax.get_ylabel()) == ("easting (km)", "northing (km)")
+    speeds = ax.collections[0].get_array()
+    assert 0.0 <= speeds.min() < 6.0
+    assert speeds.max() == pytest.approx(8.0, abs=0.01)
+    assert len(ax.lines) == 3
+
+
+def test_without_wakes_there_is_nothing_to_draw(ax):
+    alone = plan_turbine_yaw(STEERED.farm, WIND).found()
+    with pytest.raises(InvalidInput, match="to be made under wakes"):
+        plotting.plot_wakes(alone, ax)
+
+
 def test_rotors_are_drawn_across_the_nacelles(ax):
-    yaw = plan_yaw(built_in_farm(), WIND).found()
+    yaw = plan_turbine_yaw(built_in_farm(), WIND).found()
     assert plotting.plot_yaw(yaw, ax) is ax
     rotors = ax.collections[0]
     across = np.stack([rotors.U, rotors.V], axis=1)

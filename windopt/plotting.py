@@ -4,16 +4,21 @@ Needs matplotlib, the extra ``plot``. Positions are drawn in kilometres, directi
 """
 
 from collections.abc import Iterator
+from dataclasses import replace
 from itertools import cycle
 from math import cos, sin
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from windopt.domain.farm import Farm
 from windopt.domain.plan import Flight, InspectionPlan, YawPlan
 from windopt.domain.wind import Wind, WindForecast, WindSeries
 from windopt.errors import MissingExtra
+from windopt.planning.yaw import problem_of
+from windopt.wakes.farm import turbine_powers
+from windopt.wakes.plane import wind_speeds
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -21,6 +26,9 @@ if TYPE_CHECKING:
 # Okabe & Ito's palette, told apart by the colour-blind as well.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
 KILOMETRE = 1e3
+PIXELS = 250  # of a picture of wakes, along each side
+
+Floats = NDArray[np.float64]
 
 
 def axes() -> "Axes":
@@ -118,6 +126,43 @@ def plot_yaw(plan: YawPlan, ax: "Axes") -> "Axes":
     )
     ax.figure.colorbar(rotors, ax=ax, label="power (MW)", shrink=0.7)
     ax.set_title(f"{plan.farm.name}: {plan.power / 1e6:.1f} MW")
+    return plot_wind(plan.wind, ax)
+
+
+def plot_wakes(plan: YawPlan, ax: "Axes") -> "Axes":
+    """Draw the wind at hub height under the set-points of a plan, in its mean wind."""
+    return _wakes(plan, np.array([point.misalignment for point in plan.set_points]), ax)
+
+
+def plot_facing_wakes(plan: YawPlan, ax: "Axes") -> "Axes":
+    """Draw the same wind with every nacelle facing it: the wakes before the plan."""
+    return _wakes(plan, np.zeros(len(plan.farm)), ax)
+
+
+def _wakes(plan: YawPlan, gamma: Floats, ax: "Axes") -> "Axes":
+    problem = replace(
+        problem_of(plan),
+        wind_speeds=np.array([plan.wind.speed]),
+        wind_directions=np.array([plan.wind.theta_met]),
+        weights=np.ones(1),
+    )
+    low, high = plan.farm.xy.min(axis=0), plan.farm.xy.max(axis=0)
+    margin = 0.05 * (high - low).max() + 3 * problem.rotor_diameters.max()
+    x, y = (np.linspace(a - margin, b + margin, PIXELS) for a, b in zip(low, high, strict=True))
+    places = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
+    speeds = np.maximum(wind_speeds(problem, gamma, places), 0.0).reshape(PIXELS, PIXELS)
+    image = ax.pcolormesh(
+        x / KILOMETRE, y / KILOMETRE, speeds, cmap="Blues_r", shading="nearest", rasterized=True
+    )
+    ax.figure.colorbar(image, ax=ax, label="wind speed (m/s)", shrink=0.7)
+    across = plan.wind.theta_met - gamma
+    ends = problem.rotor_diameters[:, None] / 2 * np.c_[np.cos(across), -np.sin(across)]
+    for one, other in zip(plan.farm.xy - ends, plan.farm.xy + ends, strict=True):
+        ax.plot(*(np.array([one, other]).T / KILOMETRE), "-", lw=1.2, color="black")
+    power = float(turbine_powers(problem, gamma).sum()) / 1e6
+    ax.set(xlabel="easting (km)", ylabel="northing (km)", aspect="equal")
+    ax.set_title(f"{plan.farm.name}: {power:.1f} MW")
+    ax.ticklabel_format(useOffset=False)
     return plot_wind(plan.wind, ax)
 
 

@@ -13,7 +13,14 @@ from windopt.io.geojson import write_geojson
 from windopt.io.plan_reader import Recorded
 from windopt.io.plans import write_plan
 from windopt.io.whole_files import write_whole
-from windopt.plotting import axes, plot_flights, plot_forecast, plot_yaw
+from windopt.plotting import (
+    axes,
+    plot_facing_wakes,
+    plot_flights,
+    plot_forecast,
+    plot_wakes,
+    plot_yaw,
+)
 from windopt.result import Result
 
 if TYPE_CHECKING:
@@ -30,6 +37,8 @@ FILES = (
     "forecast.png",
     "flights.png",
     "yaw.png",
+    "wakes.png",
+    "wakes-before.png",
 )
 
 
@@ -100,6 +109,9 @@ def _result_pictures(result: Result[InspectionPlan] | Result[YawPlan]) -> Iterat
             yield "flights.png", lambda ax: plot_flights(flights, ax)
         case YawPlan() as set_points:
             yield "yaw.png", lambda ax: plot_yaw(set_points, ax)
+            if set_points.steering is not None:
+                yield "wakes.png", lambda ax: plot_wakes(set_points, ax)
+                yield "wakes-before.png", lambda ax: plot_facing_wakes(set_points, ax)
 
 
 def _draw(pictures: dict[str, Picture], folder: Path, *, force: bool) -> list[str]:

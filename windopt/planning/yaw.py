@@ -164,6 +164,19 @@ def curve_of(type_: TurbineType) -> PowerCurve:
     return type_.curve or type_.curve_by(MODELS[name].best().C_p)
 
 
+def problem_of(plan: YawPlan) -> YawProblem:
+    """Return the yaw problem that a plan under wakes answers.
+
+    Raises
+    ------
+    InvalidInput
+        If the plan was made without wakes.
+    """
+    if plan.steering is None:
+        raise InvalidInput("plan", "to be made under wakes", "one of turbines by themselves")
+    return yaw_problem(plan.farm, plan.wind, plan.steering, curve_of, air_density=plan.air_density)
+
+
 def _no_worse_than_facing(problem: YawProblem, found: Result[Floats]) -> Result[Floats]:
     """Return what a method found, or facing the wind where that delivers more."""
     if found.solution is not None:
