@@ -4,10 +4,11 @@ import argparse
 import shlex
 import sys
 from fnmatch import fnmatch
+from importlib import import_module
 from pathlib import Path
 
 from benchmarks.case import Case
-from benchmarks.registry import PROBLEMS, SETS, problem
+from benchmarks.registry import PROBLEMS, SETS, TABLES, problem
 from benchmarks.runner import run
 
 MEASURED = Path("measured")
@@ -19,6 +20,10 @@ PAGES = Path("docs/benchmarks/generated")
 
 def main(words: list[str] | None = None) -> None:
     """Run a benchmark, or report what was measured."""
+    words = sys.argv[1:] if words is None else words
+    if words[:1] == ["run"] and set(words[1:2]) & set(TABLES):
+        import_module(TABLES[words[1]]).main(words[2:])
+        return
     chosen = _parser().parse_args(words)
     chosen.command(chosen)
 
@@ -28,7 +33,8 @@ def _parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(required=True)
     running = commands.add_parser("run", help="measure; a line of JSON for each case")
     add = running.add_argument
-    add("problem", nargs="?", default="all", choices=(*PROBLEMS, "all"))
+    tables = f"or {' or '.join(TABLES)}, which have options of their own"
+    add("problem", nargs="?", default="all", choices=(*PROBLEMS, "all"), help=tables)
     add("--set", default="small", choices=SETS, help="of instances (default: %(default)s)")
     add("--instance", nargs="+", default=["*"], metavar="PATTERN", help="only these of the set")
     add("--method", nargs="+", metavar="NAME", help="only these; or module:function")

@@ -148,8 +148,21 @@ def onnx_graph(weights: Weights) -> bytes:
     return content
 
 
-def in_numpy(weights: Weights) -> Iterator[tuple[str, Run, int]]:
+def products(weights: Weights) -> Run:
+    """Return the products of matrix and vector of a float network, and nothing else."""
+    A = np.asfortranarray(np.column_stack([weights.U, weights.W, weights.b]))
+    a, out = np.ones(A.shape[1], np.float32), np.empty(len(A), np.float32)
+
+    def run(x: Single) -> None:
+        for _ in range(x.shape[1]):
+            np.dot(A, a, out)
+
+    return run
+
+
+def in_numpy(weights: Weights) -> Iterator[tuple[str, Run, int | str]]:
     """Yield windopt's networks and the bytes of their files."""
+    yield f"NumPy, the {STEPS} products of floats alone", products(weights), ""
     for units in 100, 50, 25, 16:
         small = random_weights(units)
         yield f"NumPy, floats, {units} units", FloatNetwork(small), file_size(small, 32)

@@ -1,9 +1,9 @@
 """The paper's two tables of forecast errors, on another series, with persistence beside them.
 
-``python -m benchmarks run forecast [FILE] [--bits 32 4] [--seeds 0 1 2] [--out FILE.csv]`` trains
-on the first two thirds of a 5- or 10-minute series, the built-in month unless given, and scores the
-last third. The paper's data set is not
-public; the series is another, so the figures stand beside the paper's and do not reproduce them.
+``python -m benchmarks run forecast [FILE] [--bits 32 4] [--seeds 0 1 2] [--no-rivals]`` trains on
+the first two thirds of a 5- or 10-minute series, the built-in month unless given, and scores the
+last third; ``--out FILE.csv`` keeps the tables. The paper's data set is not public; the series is
+another, so the figures stand beside the paper's and do not reproduce them.
 
 The first table compares bit widths, of our target and of the paper's own, and small networks in
 floating point. The second compares forecasts from every step, the paper's remote sensing, with
@@ -12,7 +12,7 @@ forecasts from one-hour means, its hour ahead, on the same truth.
 
 import argparse
 import csv
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from itertools import chain
 from pathlib import Path
@@ -32,7 +32,7 @@ from windopt.forecasting.model_file import dumps
 from windopt.forecasting.persistence import Persistence
 from windopt.forecasting.report import report
 from windopt.forecasting.training.fit import Recipe, fit
-from windopt.forecasting.training.loop import Schedule
+from windopt.forecasting.training.loop import Epoch, Schedule
 from windopt.forecasting.windows import chronological_split
 from windopt.io.built_in import DATA
 
@@ -79,29 +79,41 @@ def rows(table: Backtest, seed: int | str = "", size: int | str = "") -> Iterato
         yield (method["name"], seed, *(f"{figure:.4f}" for figure in figures), size)
 
 
-def recipes(bits: list[int]) -> Iterator[tuple[str, Recipe]]:
-    """Yield what is compared in the first table."""
+def recipes(bits: list[int], *, rivals: bool) -> Iterator[tuple[str, Recipe]]:
+    """Yield what is compared in the first table, with or without what else may be trained."""
     for width in bits:
         yield f"lstm, {width} bits", Recipe(bits=width)
+    if not rivals:
+        return
+    for width in bits:
         yield f"lstm, the paper's target, {width} bits", Recipe(bits=width, target="raw")
     for units in 50, 25, 16:
         yield f"lstm, {units} units, 32 bits", Recipe(bits=32, units=units)
 
 
-def trained(recipe: Recipe, series: WindSeries, seed: int, folder: Path) -> EdgeForecaster:
+def trained(
+    recipe: Recipe,
+    series: Sequence[WindSeries],
+    seed: int,
+    folder: Path,
+    progress: Callable[[Epoch], None] | None = None,
+) -> EdgeForecaster:
     """Train once: bit widths share the training in floats, and the same again is read back."""
     network = f"{recipe.target}-{recipe.units}-{recipe.history}-{seed}"
     checkpoint = folder / f"{network}.{recipe.bits}"
-    return EdgeForecaster(fit(recipe, [series], seed=seed, checkpoint=checkpoint))
+    model = fit(recipe, series, seed=seed, checkpoint=checkpoint, progress=progress)
+    return EdgeForecaster(model)
 
 
-def by_bits(series: WindSeries, bits: list[int], seeds: list[int], folder: Path) -> Iterator[Row]:
+def by_recipe(
+    series: WindSeries, compared: Iterable[tuple[str, Recipe]], seeds: list[int], folder: Path
+) -> Iterator[Row]:
     """Yield the rows of the first table."""
     before, after = chronological_split(without_faults(series), 1 / 3)
     yield from rows(evaluate([], series, test=1 / 3))
-    for name, recipe in recipes(bits):
+    for name, recipe in compared:
         for seed in seeds:
-            forecaster = replace(trained(recipe, before, seed, folder), name=name)
+            forecaster = replace(trained(recipe, [before], seed, folder), name=name)
             size = len(dumps(forecaster.model)) if forecaster.model else ""
             yield from rows(backtest([forecaster], after), seed, size)
 
@@ -109,13 +121,13 @@ def by_bits(series: WindSeries, bits: list[int], seeds: list[int], folder: Path)
 def by_source(series: WindSeries, folder: Path) -> Iterator[Row]:
     """Yield the rows of the second table: the same methods on each source, on the same windows."""
     before, after = chronological_split(without_faults(series), 1 / 3)
-    lstm = trained(HOURLY, averaged(before, HOUR), 0, folder)
+    lstm = trained(HOURLY, [averaged(before, HOUR)], 0, folder)
     forecasters: list[Forecaster] = [
         HourAhead(Persistence(2 * HOUR, HOUR)),
         HourAhead(LinearAutoregression(HALF_DAY, HOUR)).fit(before),
         HourAhead(lstm),
         LinearAutoregression().fit(before),
-        trained(Recipe(), before, 0, folder),
+        trained(Recipe(), [before], 0, folder),
     ]
     for name, *figures in rows(backtest(forecasters, after)):
         yield (f"{name} (windows of 12 h)", *figures)
@@ -127,6 +139,12 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("file", type=Path, nargs="?", default=MONTH, help="a measured series")
     parser.add_argument("--bits", type=int, nargs="+", default=[32, 16, 8, 4, 2])
     parser.add_argument("--seeds", type=int, nargs="+", default=[0])
+    parser.add_argument(
+        "--rivals",
+        action=argparse.BooleanOptionalAction,
+        default=True,
+        help="train the paper's own target and small networks too",
+    )
     parser.add_argument("--out", type=Path, help="a CSV file for the tables, beside printing them")
     chosen = parser.parse_args(arguments)
     series = WindSeries.read(chosen.file)
@@ -135,7 +153,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
     found: list[Row] = []
     with TemporaryDirectory() as kept:
         folder = Path(kept)
-        tables = by_bits(series, chosen.bits, chosen.seeds, folder), by_source(series, folder)
+        compared = recipes(chosen.bits, rivals=chosen.rivals)
+        tables = by_recipe(series, compared, chosen.seeds, folder), by_source(series, folder)
         for row in chain([HEADER], published, *tables):
             found.append(row)
             print("  ".join(map(str, row)), flush=True)

@@ -10,6 +10,9 @@ PROBLEMS = {
 }
 """Module of each problem, whose ``PROBLEM`` describes it."""
 
+TABLES = {"forecast": "benchmarks.forecast", "edge": "benchmarks.edge"}
+"""Module of each benchmark that prints a table of its own, by options of its own."""
+
 SETS = "small", "medium", "full", "growth"
 
 

@@ -3,29 +3,43 @@
 ``python -m benchmarks.shipped_models 5 FILE...`` trains on measured 5-minute series, and
 ``python -m benchmarks.shipped_models 10`` on the 10-minute series that py_wake, brightwind and
 foxes publish under the MIT licence, which must be installed. The last third of every series is left
-out, and the card says how the model does on it.
+out, and the card says how the model does on it; with ``--floats`` the same network in floating
+point stands beside it.
 """
 
 import argparse
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from datetime import UTC, datetime
+from functools import partial
 from importlib.resources import files
+from itertools import chain
 from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
 
 import numpy as np
 
+from benchmarks.forecast import trained
 from windopt.domain.wind import WindSeries
 from windopt.forecasting.evaluation import evaluate
 from windopt.forecasting.faults import without_faults
 from windopt.forecasting.lstm import SHIPPED, EdgeForecaster
 from windopt.forecasting.report import report
-from windopt.forecasting.training.fit import Recipe, fit
+from windopt.forecasting.training.fit import Recipe
 from windopt.forecasting.training.loop import Epoch
 from windopt.forecasting.windows import chronological_split
 
 MODELS = Path(__file__).parents[1] / "windopt" / "forecasting" / "models"
 TEST = 1 / 3
-COLUMNS = ("speed_mae", "direction_mae", "speed_pinball", "direction_pinball", "coverage_90")
+COLUMNS = (
+    "speed_mae",
+    "direction_mae",
+    "speed_pinball",
+    "direction_pinball",
+    "coverage_90",
+    "direction_coverage_90",
+)
 
 TEN_MINUTES = (
     "py_wake's year of winds, of a site and year it does not name",
@@ -47,9 +61,16 @@ of which the last 12 % stopped the training and calibrated the quantiles. On the
 trained nothing (means over the horizon; m/s, and degrees on the circle; persistence, with
 bands of constant width, and linear autoregression fitted to the first two thirds):
 
-| series | method | speed MAE | direction MAE | speed pinball | direction pinball | 90 % covers |
-|---|---|---|---|---|---|---|
+| series | method | speed MAE | direction MAE | speed pinball | direction pinball | speed in 90 % \
+| direction in 90 % |
+|---|---|---|---|---|---|---|---|
 {table}
+
+The share of truths in the bands of 90 %, by the speed last measured, with the number of windows:
+
+| series | of | {classes} |
+|---|---|{rules}
+{shares}
 
 Made {date} by `{command}`.
 """
@@ -81,25 +102,33 @@ def built_in_series() -> WindSeries:
 
 
 def ship(
-    model: EdgeForecaster, series: Sequence[WindSeries], about: Sequence[str], command: str
+    model: EdgeForecaster,
+    rivals: Sequence[EdgeForecaster],
+    series: Sequence[WindSeries],
+    about: Sequence[str],
+    command: str,
 ) -> None:
     """Write the model and its card, in which each series is called what ``about`` says."""
     minutes = int(series[0].step / np.timedelta64(1, "m"))
     path = MODELS / SHIPPED[minutes]
     model.save(path)
     tested = EdgeForecaster.load(path)
+    names = [one.split(",")[0] for one in about]
+    reports = [report(evaluate([*rivals, tested], one, test=TEST)) for one in series]
+    classes = [one["speed"] for one in reports[0]["methods"][-1]["by_speed"]]
     card = CARD.format(
         file=path.name,
         step=minutes,
         units=tested.model.units if tested.model else 0,
         data="\n".join(map(_described, about, series)),
-        table="\n".join(
-            row for pair in zip(about, series, strict=True) for row in _rows(tested, *pair)
-        ),
+        table="\n".join(chain.from_iterable(map(_errors, names, reports))),
+        classes=" | ".join(classes),
+        rules="---|" * len(classes),
+        shares="\n".join(chain.from_iterable(map(_shares, names, reports))),
         date=datetime.now(UTC).date().isoformat(),
         command=command,
     )
-    path.with_suffix(".md").write_text(card)
+    path.with_suffix(".md").write_text(card, encoding="utf-8")
 
 
 def _described(about: str, series: WindSeries) -> str:
@@ -109,15 +138,21 @@ def _described(about: str, series: WindSeries) -> str:
     return f"- {about}: {first} to {last}, {known:.1%} of {len(series)} rows valid"
 
 
-def _rows(model: EdgeForecaster, about: str, series: WindSeries) -> list[str]:
-    """Rows of the card's table."""
-    found = report(evaluate([model], series, test=TEST))
-    name = about.split(",")[0]
-    rows = []
+def _errors(name: str, found: dict[str, Any]) -> Iterator[str]:
+    """Yield the rows of the card's table of errors on one series."""
     for method in found["methods"]:
         values = ("-" if method[key] is None else f"{method[key]:.3f}" for key in COLUMNS)
-        rows.append(f"| {name} | {method['name']} | {' | '.join(values)} |")
-    return rows
+        yield f"| {name} | {method['name']} | {' | '.join(values)} |"
+
+
+def _shares(name: str, found: dict[str, Any]) -> Iterator[str]:
+    """Yield the rows of the card's table of bands on one series; the model comes last."""
+    for what, key in ("speed", "coverage_90"), ("direction", "direction_coverage_90"):
+        classes = found["methods"][-1]["by_speed"]
+        cells = (
+            f"{one[key]:.3f} ({one['windows']})" if one["windows"] else "- (0)" for one in classes
+        )
+        yield f"| {name} | {what} | {' | '.join(cells)} |"
 
 
 def main() -> None:
@@ -127,6 +162,7 @@ def main() -> None:
     parser.add_argument("files", type=Path, nargs="*", help="measured series of this step")
     parser.add_argument("--about", nargs="*", help="what the card calls each of them")
     parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--floats", action="store_true", help="put 32 bits beside it in the card")
     chosen = parser.parse_args()
     series = [WindSeries.read(path) for path in chosen.files] or ten_minute_series()
 
@@ -135,15 +171,15 @@ def main() -> None:
         print(f"{epoch.bits:2d} bits {epoch.number:3d}  {losses}", flush=True)
 
     early = [chronological_split(one, TEST)[0] for one in series]
-    model = EdgeForecaster(fit(Recipe(), early, seed=chosen.seed, progress=progress))
+    with TemporaryDirectory() as kept:
+        learn = partial(trained, series=early, seed=chosen.seed, folder=Path(kept))
+        model = learn(Recipe(), progress=progress)
+        floats = [learn(Recipe(bits=32))] if chosen.floats else []
+    rivals = [replace(one, name="lstm, 32 bits") for one in floats]
     names = [path.name for path in chosen.files]
     about = (chosen.about or names) if names else TEN_MINUTES
-    ship(
-        model,
-        series,
-        about,
-        " ".join(["python -m benchmarks.shipped_models", str(chosen.step), *names]),
-    )
+    words = ["python -m benchmarks.shipped_models", str(chosen.step), *names]
+    ship(model, rivals, series, about, " ".join(words + ["--floats"] * chosen.floats))
 
 
 if __name__ == "__main__":

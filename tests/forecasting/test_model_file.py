@@ -16,6 +16,7 @@ from windopt.forecasting.model import Model, Scaling
 from windopt.forecasting.model_file import dumps, load, loads, save
 from windopt.forecasting.network import FloatNetwork, Weights
 from windopt.forecasting.quantisation import Levels
+from windopt.forecasting.targets import ResidualTarget
 from windopt.forecasting.windows import HISTORY, HORIZON, Traces
 
 STEP = np.timedelta64(5, "m")
@@ -23,9 +24,10 @@ STEP = np.timedelta64(5, "m")
 
 def model(bits=4, output_bits=None, n=6, levels=Levels.HALF, seed=0):
     rng = np.random.default_rng(seed)
-    shapes = (4 * n, 5), (4 * n, n), (4 * n,), (88, n), (88,)
+    d = ResidualTarget.inputs
+    shapes = (4 * n, d), (4 * n, n), (4 * n,), (88, n), (88,)
     weights = Weights(*(rng.normal(0, 0.2, shape).astype(np.float32) for shape in shapes))
-    scaling = Scaling(*(np.full(shape, 1.5, np.float32) for shape in [(5,), (5,), (8, 11)]))
+    scaling = Scaling(*(np.full(shape, 1.5, np.float32) for shape in [(d,), (d,), (8, 11)]))
     chosen = weights if bits == 32 else weights.quantised(bits, output_bits, levels=levels)
     factors = np.array([1.25, 1.5, 1.0, 0.5, 0.75]) * np.ones((8, 1))
     calibration = Calibration(factors, factors[:, ::-1].copy(), (0.5, 0.25))

@@ -101,8 +101,8 @@ def test_integers_are_exact_to_the_last_bit(bits, levels):
 
 @pytest.mark.slow
 def test_integers_are_exact_on_a_thousand_windows_of_the_full_size():
-    w = weights(n=100, d=5, m=88, size=0.1).quantised(4)
-    x = inputs(B=1000, L=3, d=5)
+    w = weights(n=100, d=8, m=88, size=0.1).quantised(4)
+    x = inputs(B=1000, L=3, d=8)
     network = IntegerNetwork(w)
     assert network.exact is np.float32
     assert network.sums(x).tolist() == [in_python_integers(w, window) for window in x]
@@ -112,7 +112,7 @@ def test_integers_are_exact_on_a_thousand_windows_of_the_full_size():
 @pytest.mark.parametrize("minutes", [5, 10])
 def test_integers_are_exact_on_the_shipped_models(minutes):
     model = EdgeForecaster.shipped(np.timedelta64(minutes, "m")).model
-    x = inputs(B=20, L=120 // minutes, d=5)
+    x = inputs(B=20, L=120 // minutes, d=8)
     expected = [in_python_integers(model.weights, window) for window in x]
     assert IntegerNetwork(model.weights).sums(x).tolist() == expected
 

@@ -44,6 +44,25 @@ def test_turning_the_compass_turns_the_forecast():
     assert np.cos(rotated.theta_met - straight.theta_met) == pytest.approx(np.cos(2.0))
 
 
+def test_the_last_inputs_tell_where_a_steady_change_is_going():
+    time = np.arange(24.0)
+    past = Traces(5 + 0.1 * time[None], np.full((1, 24), 1.0))
+    x = RESIDUAL.encode(past)[0]
+    d = np.exp(x[0, 4])
+    assert d * x[1:, 5] == pytest.approx(np.full(23, 0.1), rel=1e-5)  # along the wind
+    assert x[:, 6] == pytest.approx(np.zeros(24), abs=1e-6)  # across it
+    assert d * x[1:, 7] == pytest.approx(np.full(23, 0.1), rel=1e-5)
+    assert x[0, 5] == x[0, 7] == 0.0
+
+
+def test_inputs_that_mirror_change_sign_when_left_and_right_are_exchanged():
+    past = winds()
+    mirrored = Traces(past.speed, -past.theta_met % (2 * np.pi))
+    sign = np.ones(RESIDUAL.inputs)
+    sign[list(RESIDUAL.mirror[0])] = -1
+    assert RESIDUAL.encode(mirrored) == pytest.approx(sign * RESIDUAL.encode(past), abs=1e-5)
+
+
 @pytest.mark.parametrize("target", [RESIDUAL, RAW])
 def test_outputs_that_equal_the_truth_decode_to_it(target):
     past, future = split(winds(), 16)
