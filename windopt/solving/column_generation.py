@@ -10,6 +10,7 @@ one to a module.
 """
 
 from collections.abc import Callable
+from itertools import count
 from math import inf
 
 from windopt.domain.routing import Route, RoutingInstance
@@ -24,8 +25,12 @@ from windopt.solving.exact.search import Search, alone
 
 EFFORT, MORE = 300_000, 1.5
 """Half flights that the first attempt to list all flights may hold, and the growth of that."""
-FARTHER = 1.5
-"""How much wider a part of the gap to try next than the last that could be listed."""
+NARROWER = 0.75
+"""What cuts must make of a gap whose flights were too many, before they are listed again."""
+SMALLER, SMALLEST = 0.5, 0.05
+"""By what a part of the gap shrinks whose flights are too many, and the part to give up at."""
+THOROUGH = 2
+"""Times the first local search to search again, and more each time flights are too many."""
 SOURCE = "column generation"
 
 
@@ -73,7 +78,7 @@ def column_generation(
             return Result(Status.INFEASIBLE, None, inf, inf, clock.elapsed, SOURCE, reason)
         try:
             _begin(search, start, seed)
-            _prove(search, memory)
+            _prove(search, memory, seed)
             stopped = Status.FEASIBLE
         except (OutOfTime, LabelsOverflow):
             stopped = Status.FEASIBLE
@@ -93,21 +98,37 @@ def _begin(search: Search, start: tuple[Route, ...] | None, seed: int) -> None:
     search.note("start")
 
 
-def _prove(search: Search, memory: float) -> None:
+def _prove(search: Search, memory: float, seed: int) -> None:
     """Raise the bound to the plan, or find a better plan."""
     relaxation = Relaxation(search, memory, search.counts)
     relaxation.solve()
-    while relaxation.grow_neighbourhoods():
-        relaxation.solve()
-    effort, reach = float(EFFORT), inf
-    while not search.closed:
+    while relaxation.grow_neighbourhoods() or relaxation.round_flights():
+        pass
+    effort = float(EFFORT)
+    for failures in count(1):
         fixing = relaxation.fix_arcs()
-        if fixing is not None:
-            reach = FARTHER * close(relaxation, fixing, reach, int(effort), search)
-        if search.closed or not relaxation.add_cuts():
+        if fixing is not None and close(relaxation, fixing, inf, int(effort), search):
             return
-        relaxation.solve()
+        improve(search, seed + failures, THOROUGH * failures)
+        narrow = NARROWER * relaxation.gap
+        helps = True
+        while helps and relaxation.gap > narrow:
+            helps = relaxation.cut()
         effort *= MORE
+        if relaxation.gap > narrow:
+            _close_part(relaxation, int(effort), search)
+
+
+def _close_part(relaxation: Relaxation, effort: int, search: Search) -> None:
+    """List the flights of as large a part of the gap as ``effort`` allows, and choose."""
+    fixing = relaxation.fix_arcs()
+    if fixing is None:
+        return
+    delta = relaxation.gap
+    while delta >= SMALLEST * relaxation.gap:
+        delta *= SMALLER
+        if close(relaxation, fixing, delta, effort, search):
+            return
 
 
 def _result(search: Search, stopped: Status) -> Result[tuple[Route, ...]]:

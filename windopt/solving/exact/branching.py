@@ -7,7 +7,8 @@ those that are open bounds every plan.
 * [1] Ryan & Foster (1981), in *Computer Scheduling of Public Transport*, 269-280.
 """
 
-from dataclasses import replace
+from collections.abc import Callable
+from functools import partial
 from heapq import heappop, heappush
 from itertools import count
 
@@ -16,11 +17,21 @@ import numpy as np
 from windopt.solving.exact.network import Bools, Floats
 from windopt.solving.exact.relaxation import MARGIN
 from windopt.solving.exact.search import CLOSED, Search
-from windopt.solving.exact.staged_mip import minimise, staged_mip
+from windopt.solving.exact.staged_mip import LITTLE_MORE, SIZES, minimise, staged_mip
 from windopt.solving.exact.tightening import Tightened, tighten
 
+MOST = int(LITTLE_MORE * SIZES[-1])
+"""Flights that a node may leave to HiGHS."""
+PAIRS = 6
+"""Pairs of turbines to try branching on."""
+LEAST_GAIN = 1e-3
+"""What a branch counts as raising the bound at least."""
 FRACTIONAL = 0.05
 """Distance from a whole number from which a number of flights is branched on."""
+
+
+Branch = tuple[Callable[[Bools], Bools], Floats]
+"""Which flights remain, told from their turbines, and limits on how many are sent."""
 
 
 def branch(root: Tightened, counts: Floats, target: float, search: Search) -> None:
@@ -42,7 +53,9 @@ def branch(root: Tightened, counts: Floats, target: float, search: Search) -> No
             search.prove(min(bound, others, search.ceiling))
 
         prove(value)
-        bound = max(value, staged_mip(node, counts, target, search, prove))
+        bound = value
+        if node is root or len(node.pool) <= MOST:
+            bound = max(value, staged_mip(node, counts, target, search, prove))
         prove(bound)
         wanted = min(target, search.ceiling)
         keep = node.reduced <= wanted - node.value + MARGIN
@@ -50,13 +63,15 @@ def branch(root: Tightened, counts: Floats, target: float, search: Search) -> No
             proved = min(proved, max(bound, wanted))
             continue
         pool, reduced = node.pool.kept(keep), node.reduced[keep]
-        children = _children(replace(node, pool=pool), counts)
+        children = _children(node, counts, wanted, search)
         if not children:
-            bound = max(bound, minimise(pool, node.triples, counts, search))
+            bound = max(bound, minimise(pool, node.rows, counts, search))
             proved = min(proved, bound, wanted)
-        for part, limits in children:
+        members = pool.members(search.n)
+        for branch_of, limits in children:
+            part = branch_of(members)
             child = tighten(
-                pool.kept(part), reduced[part], node.triples, limits, wanted, search,
+                pool.kept(part), reduced[part], node.rows, limits, wanted, search,
                 prove=lambda _: None,
             )  # fmt: skip
             if child is not None:
@@ -66,23 +81,57 @@ def branch(root: Tightened, counts: Floats, target: float, search: Search) -> No
     search.prove(min(proved, search.ceiling))
 
 
-def _children(node: Tightened, counts: Floats) -> list[tuple[Bools, Floats]]:
-    """Return two parts of a node: flights that remain, and limits on how many are sent.
+def _children(node: Tightened, counts: Floats, target: float, search: Search) -> list[Branch]:
+    """Return the two branches that raise the bound most, and none where nothing is fractional."""
+    candidates = [*_on_counts(node.sent, counts), *_on_pairs(node.together, counts)]
+    if len(candidates) < 2:
+        return candidates[0] if candidates else []
 
-    There are none where nothing that could be branched on is fractional.
-    """
-    fraction = np.abs(node.sent - np.round(node.sent))
-    everyone = np.ones(len(node.pool), bool)
-    if fraction.max() > FRACTIONAL:
-        which = int(fraction.argmax())
+    def gain(branch: Branch) -> float:
+        part, limits = branch
+        members = node.selection.members
+        value = node.selection.value_with(part(members), limits, search.clock)
+        return max(min(value, target) - node.value, LEAST_GAIN)
+
+    gains = [[gain(branch) for branch in branches] for branches in candidates]
+    best = int(np.argmax(np.prod(gains, axis=1)))
+    search.note("branching gains %s", np.round(gains[best], 2))
+    return candidates[best]
+
+
+def _on_counts(sent: Floats, counts: Floats) -> list[list[Branch]]:
+    """Return branches on the numbers of flights that are fractional."""
+    candidates: list[list[Branch]] = []
+    for which in np.flatnonzero(np.abs(sent - np.round(sent)) > FRACTIONAL):
         fewer, more = counts.copy(), counts.copy()
-        fewer[which, 1] = np.floor(node.sent[which])
-        more[which, 0] = np.floor(node.sent[which]) + 1
-        return [(everyone, fewer), (everyone, more)]
-    undecided = np.abs(np.triu(node.together, 1) - 0.5) + np.tril(np.ones_like(node.together))
-    i, j = np.unravel_index(undecided.argmin(), undecided.shape)
-    if undecided[i, j] > 0.5 - FRACTIONAL:
-        return []
-    members = node.pool.members(len(undecided))
-    first, second = members[:, i], members[:, j]
-    return [(first == second, counts), (~(first & second), counts)]
+        fewer[which, 1] = np.floor(sent[which])
+        more[which, 0] = np.floor(sent[which]) + 1
+        candidates.append([(everything, fewer), (everything, more)])
+    return candidates
+
+
+def _on_pairs(together: Floats, counts: Floats) -> list[list[Branch]]:
+    """Return branches on pairs of turbines that are neither together nor apart."""
+    undecided = np.abs(np.triu(together, 1) - 0.5) + np.tril(np.ones_like(together))
+    candidates: list[list[Branch]] = []
+    for pair in np.argsort(undecided, axis=None, kind="stable")[:PAIRS]:
+        i, j = np.unravel_index(pair, undecided.shape)
+        if undecided[i, j] <= 0.5 - FRACTIONAL:
+            candidates.append([(partial(as_one, i, j), counts), (partial(apart, i, j), counts)])
+    return candidates
+
+
+def everything(members: Bools) -> Bools:
+    """Keep all flights."""
+    return np.ones(len(members), bool)
+
+
+def as_one(i: int, j: int, members: Bools) -> Bools:
+    """Keep the flights that visit both i and j or neither."""
+    same: Bools = members[:, i] == members[:, j]
+    return same
+
+
+def apart(i: int, j: int, members: Bools) -> Bools:
+    """Keep the flights that do not visit both i and j."""
+    return ~(members[:, i] & members[:, j])

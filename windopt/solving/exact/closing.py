@@ -8,56 +8,52 @@ shrinks, or prove value + delta.
 from windopt.solving.exact.branching import branch
 from windopt.solving.exact.enumeration import enumerate_flights
 from windopt.solving.exact.pool import Pool, reduced_costs
+from windopt.solving.exact.rank_one_rows import Rows
 from windopt.solving.exact.relaxation import MARGIN, Fixing, Relaxation
 from windopt.solving.exact.search import ProofError, Search
 from windopt.solving.exact.tightening import tighten
 
-SMALLER, SMALLEST = 0.5, 0.05
-"""By what delta shrinks where flights are too many, and the part of the gap at which to give up."""
-
 
 def close(
-    relaxation: Relaxation, fixing: Fixing, reach: float, effort: int, search: Search
-) -> float:
-    """Close the gap with the flights within it, or as much of it as ``effort`` allows.
+    relaxation: Relaxation, fixing: Fixing, delta: float, effort: int, search: Search
+) -> bool:
+    """Find the best plan of flights of a reduced cost up to ``delta``, or prove there is none.
 
     Parameters
     ----------
-    reach
-        The delta to try first, where the gap is wider.
     effort
         Half flights to hold at most, for one side of one station; memory may allow fewer.
 
     Returns
     -------
-    The delta whose flights were not too many, or the last that was tried.
+    Whether the flights were not too many.
     """
-    gap = search.ceiling - fixing.value
-    delta = min(reach, gap)
-    while delta >= SMALLEST * gap:
-        networks = fixing.useful(relaxation.pricer.networks, delta)
-        pool = enumerate_flights(
-            networks, fixing, delta, effort, relaxation.memory, search.clock, apart=search.limited
-        )
-        if pool is not None:
-            _choose(pool, relaxation, fixing.value, delta, search)
-            break
-        search.note("too many flights within %.0f %% of the gap", 100 * delta / gap)
-        delta *= SMALLER
-    return delta
+    delta = min(delta, search.ceiling - fixing.value)
+    networks = fixing.useful(relaxation.pricer.networks, delta)
+    pool = enumerate_flights(
+        networks, fixing, delta, effort, relaxation.memory, search.clock, apart=search.limited
+    )
+    if pool is None:
+        search.note("too many flights within %.3f of %.3f", delta, fixing.value)
+        return False
+    _choose(pool, relaxation, fixing, delta, search)
+    return True
 
 
-def _choose(pool: Pool, relaxation: Relaxation, value: float, delta: float, search: Search) -> None:
+def _choose(
+    pool: Pool, relaxation: Relaxation, fixing: Fixing, delta: float, search: Search
+) -> None:
     """Look for a plan in ``pool``, all flights of a reduced cost up to ``delta``."""
+    value = fixing.value
     search.note("%d flights within %.3f of %.3f", len(pool), delta, value)
     _require_plan(pool, relaxation, delta, search)
     target = min(value + delta, search.ceiling)
-    triples = relaxation.master.cuts.triples
+    rows = Rows.subsets(relaxation.master.cuts.triples)
     slices = pool.slices(search.n, search.clock)
-    reduced = reduced_costs(pool, slices, relaxation.duals, triples, search.clock)
+    reduced = reduced_costs(pool, slices, relaxation.duals, rows, search.clock)
     keep = reduced <= delta + MARGIN
     pool, reduced = pool.kept(keep), reduced[keep]
-    tight = tighten(pool, reduced, triples, relaxation.counts, target, search, search.prove)
+    tight = tighten(pool, reduced, rows, relaxation.counts, target, search, search.prove)
     if tight is not None:
         search.note("%d flights left above %.3f", len(tight.pool), tight.value)
         branch(tight, relaxation.counts, target, search)

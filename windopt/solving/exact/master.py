@@ -85,7 +85,6 @@ class Master:
         self.columns: list[Column] = []
         self._known: set[tuple[int, Path]] = set()
         self.x = np.zeros(0)
-        self.missing = 0.0
         self.value = 0.0
         self._program: SetPartitioning
         self.rebuild(columns)
@@ -109,6 +108,11 @@ class Master:
         self._program.add_subset_rows(csr_array((len(self.cuts), self.n)))
         self.columns, self._known = [], set()
         self.add(columns)
+
+    def recount(self, counts: Floats) -> None:
+        """Change how many flights may be sent."""
+        self.counts = counts
+        self.rebuild(self.columns)
 
     def add(self, columns: Iterable[Column]) -> int:
         """Add the columns that are not there yet, and return how many."""
@@ -152,7 +156,7 @@ class Master:
         clock.run(model)
         solution = model.getSolution()
         values = np.array(solution.col_value)
-        self.missing, self.x = float(values[: self.n].sum()), values[self.n :]
+        self.x = values[self.n :]
         self.value = model.getInfo().objective_function_value
         dual = np.array(solution.row_dual)
         rows = self.n + len(self.counts)

@@ -1,7 +1,7 @@
 """The pool: every flight that may be part of a better plan, priced by looking at each.
 
 Sets are kept twice: as bits of one flight, to tell its turbines, and as bits of one turbine over
-all flights, so that a subset row is priced for 64 flights at a time.
+all flights, so that a row is priced for 64 flights at a time.
 """
 
 from dataclasses import dataclass, replace
@@ -16,7 +16,8 @@ from windopt.solving.exact.compiled import compiled
 from windopt.solving.exact.labels import Ints, Words, path
 from windopt.solving.exact.master import Duals
 from windopt.solving.exact.network import Bools, Floats
-from windopt.solving.exact.subset_row_cuts import Path, Triples, packed
+from windopt.solving.exact.rank_one_rows import Rows, reaching
+from windopt.solving.exact.subset_row_cuts import Path, packed
 
 PART, PARTS = 1 << 16, 8
 """Flights to turn at once, whole words of them; parts to price side by side."""
@@ -101,7 +102,7 @@ def _priced(
     cost: Floats,
     slices: Words,
     pi: Floats,
-    triples: Triples,
+    rows: Rows,
     penalty: Floats,
     start: int,
     end: int,
@@ -115,31 +116,29 @@ def _priced(
                     lowest = bits & (~bits + ONE)
                     bits ^= lowest
                     cost[64 * word + position(lowest)] -= pi[i]
-    for q in range(len(triples)):
-        i, j, k = triples[q]
-        for word in range(start, end):
-            a, b, c = slices[i, word], slices[j, word], slices[k, word]
-            bits = (a & b) | (a & c) | (b & c)
-            while bits != NONE:
-                lowest = bits & (~bits + ONE)
-                bits ^= lowest
-                cost[64 * word + position(lowest)] += penalty[q]
+    for row in range(len(penalty)):
+        for level in range(1, rows.right[row] + 1):
+            share = penalty[row] / rows.right[row]
+            for word in range(start, end):
+                bits = reaching(slices, word, rows, row, level)
+                while bits != NONE:
+                    lowest = bits & (~bits + ONE)
+                    bits ^= lowest
+                    cost[64 * word + position(lowest)] += share
 
 
-def reduced_costs(
-    pool: Pool, slices: Words, duals: Duals, triples: Triples, clock: Clock
-) -> Floats:
-    """Return the reduced cost of each flight, subset rows counted in full.
+def reduced_costs(pool: Pool, slices: Words, duals: Duals, rows: Rows, clock: Clock) -> Floats:
+    """Return the reduced cost of each flight, rows counted in full.
 
     Parameters
     ----------
     slices
         Of the pool.
-    triples
-        The subset row of each of ``duals.penalty``.
+    rows
+        The row of each of ``duals.penalty``.
     """
     cost = pool.cost - duals.toll[pool.station]
-    active = np.ascontiguousarray(triples[duals.penalty > 0.0])
+    active = rows.kept(duals.penalty > 0.0)
     penalty = duals.penalty[duals.penalty > 0.0]
 
     def price(start: int, end: int) -> None:

@@ -1,14 +1,14 @@
 """Column generation: the master over the flights at hand, and pricing for those that it lacks."""
 
 from dataclasses import dataclass, field, replace
-from math import inf
+from math import ceil, inf
 
 import numpy as np
 
 from windopt.solving.exact.arc_fixing import Completions, useful_arcs
 from windopt.solving.exact.labels import LABEL_BYTES, Memory, Prices
 from windopt.solving.exact.master import Duals, Master
-from windopt.solving.exact.network import Floats, Network
+from windopt.solving.exact.network import SLACK, Floats, Network
 from windopt.solving.exact.ng_neighbourhoods import nearest
 from windopt.solving.exact.pricing import TOLERANCE, LabelsOverflow, Pricer, bucket
 from windopt.solving.exact.search import Search, alone
@@ -18,8 +18,12 @@ NEIGHBOURS, MOST_NEIGHBOURS = 8, 16
 """Size of ng-neighbourhoods to begin with, and to let them grow to."""
 MOST_COLUMNS, KEPT_COLUMNS = 6000, 3000
 """Columns at which the dearest are dropped, and how many are kept."""
+ROUNDING = 1e-6
+"""A number of flights this much above a whole one is that."""
 LABELS_SHARE = 0.25
 """Share of the memory that labels may take."""
+HELPFUL = 0.02
+"""Part of the gap that a round of cuts must close to be followed by another."""
 MARGIN = 1e-4
 """What a gap is widened by before anything is dropped, for the rounding of duals."""
 
@@ -142,8 +146,18 @@ class Relaxation:
         reward = self.duals.pi[list(path)].sum() + self.duals.toll[station]
         return float(time - reward + penalty)
 
+    @property
+    def value(self) -> float:
+        """Bound that the duals prove."""
+        return self.duals.value(self.counts) + self.least * self.search.most_flights
+
+    @property
+    def gap(self) -> float:
+        """What the duals leave open."""
+        return self.search.ceiling - self.value
+
     def grow_neighbourhoods(self) -> bool:
-        """Forbid the cycles that the solution flies, and tell whether there were any."""
+        """Forbid the cycles that the solution flies, and tell whether that raised the bound."""
         paths = [column.path for column, _ in self.master.flown()]
         before = self.pricer.neighbourhoods
         grown = before.grown_along(paths, MOST_NEIGHBOURS)
@@ -151,16 +165,48 @@ class Relaxation:
             return False
         self.pricer = replace(self.pricer, neighbourhoods=grown)
         self.master.rebuild([column for column in self.master.columns if grown.admit(column.path)])
+        try:
+            self.solve()
+        except LabelsOverflow:
+            self.pricer = replace(self.pricer, neighbourhoods=before)
+            self.solve()
+            return False
         return True
 
-    def add_cuts(self) -> bool:
-        """Cut off the fractional solution, and tell whether that was possible."""
+    def round_flights(self) -> bool:
+        """Send as many flights as the bound takes, and tell whether that raised it.
+
+        Flights of at most t_max that together take the bound are at least bound / t_max, and
+        that many are a whole number. Where turbines may be left out, the bound is not all time.
+        """
+        longest = max(network.t_max for network in self.search.networks) + SLACK
+        least = ceil(self.search.bound / longest - ROUNDING)
+        if self.search.partial or not self.counts[-1, 0] < least <= self.counts[:-1, 1].sum():
+            return False
+        self.counts = self.counts.copy()
+        self.counts[-1, 0] = least
+        self.master.recount(self.counts)
+        self.solve()
+        return True
+
+    def cut(self) -> bool:
+        """Cut off the fractional solution, and tell whether to go on with that.
+
+        Cuts that make more labels than memory allows are taken back.
+        """
         self.duals = self.master.solve(self.search.clock)
-        cuts = separate(self.master.cuts.kept(self.duals.penalty > TOLERANCE), self.master.flown())
+        gap, before = self.gap, self.master.cuts
+        cuts = separate(before.kept(self.duals.penalty > TOLERANCE), self.master.flown())
         if cuts is None:
             return False
         self.master.rebuild(self.master.columns, cuts)
-        return True
+        try:
+            self.solve()
+        except LabelsOverflow:
+            self.master.rebuild(self.master.columns, before)
+            self.solve()
+            return False
+        return gap - self.gap >= HELPFUL * gap
 
     def fix_arcs(self, ceiling: float | None = None) -> Fixing | None:
         """Drop the legs that no better plan flies.
@@ -176,8 +222,8 @@ class Relaxation:
         """
         clock, networks = self.search.clock, self.pricer.networks
         prices = self.master.cuts.prices(self.duals.pi, self.duals.penalty)
-        value = self.duals.value(self.counts) + self.least * self.search.most_flights
-        gap = (self.search.ceiling if ceiling is None else ceiling) - value
+        value = self.value
+        gap = self.gap if ceiling is None else ceiling - value
         memory = self.pricer.neighbourhoods.memory
 
         def fix(network: Network, limit: float) -> tuple[Completions, Floats] | None:

@@ -13,13 +13,13 @@ from scipy.sparse import csr_array
 from formulations.set_partitioning import set_partitioning
 from windopt.solving.exact.network import Floats
 from windopt.solving.exact.pool import Pool
+from windopt.solving.exact.rank_one_rows import Rows
 from windopt.solving.exact.relaxation import MARGIN
 from windopt.solving.exact.search import CLOSED, Search
-from windopt.solving.exact.subset_row_cuts import Triples
 from windopt.solving.exact.tightening import Tightened, flight_rows
 
-SIZES = (2500, 5000, 9000)
-"""Flights of each stage; the last takes what is little more."""
+SIZES = (2500, 5000)
+"""Flights of each stage; the last takes what is little more, and is left out if there is more."""
 LITTLE_MORE = 1.3
 
 
@@ -44,36 +44,37 @@ def staged_mip(
     order = np.argsort(tight.reduced, kind="stable")
     pool, reduced = tight.pool.kept(order), tight.reduced[order]
     bound = tight.value
-    for size in SIZES:
+    few = len(pool) <= LITTLE_MORE * SIZES[-1]
+    for size in SIZES if few else SIZES[:1]:
         wanted = min(target, search.ceiling)
         matter = int(np.searchsorted(reduced, wanted - tight.value + MARGIN, side="right"))
         whole = matter <= LITTLE_MORE * size
         rows = matter if whole else size
         delta = wanted if whole else min(wanted, tight.value + float(reduced[rows]) - MARGIN)
         part = pool.kept(np.arange(rows))
-        bound = max(bound, min(delta, minimise(part, tight.triples, counts, search)))
+        bound = max(bound, min(delta, minimise(part, tight.rows, counts, search)))
         prove(bound)
         if whole or bound >= search.ceiling - CLOSED:
             break
     return bound
 
 
-def minimise(pool: Pool, triples: Triples, counts: Floats, search: Search) -> float:
+def minimise(pool: Pool, rows: Rows, counts: Floats, search: Search) -> float:
     """Offer the search the best plan over ``pool``; return the bound on any such plan.
 
     Parameters
     ----------
-    triples
-        Subset rows, which plans keep anyway, to tighten the program.
+    rows
+        Rank-one rows, which plans keep anyway, to tighten the program.
     """
     if not len(pool):
         return np.inf
     program = set_partitioning(search.n, counts, price=search.forfeit if search.partial else None)
     model = program.model
     before = model.getNumCol()
-    program.add_subset_rows(csr_array((len(triples), before)))
+    program.add_subset_rows(csr_array((rows.m, before)))
     members = pool.members(search.n)
-    program.add_flights(pool.cost, flight_rows(members, pool.station, len(counts), triples))
+    program.add_flights(pool.cost, flight_rows(members, pool.station, len(counts), rows))
     model.setOptionValue("mip_rel_gap", 0.0)
     model.setOptionValue("mip_abs_gap", CLOSED)
     status = search.clock.minimise(model)

@@ -1,4 +1,4 @@
-"""Tightening: subset rows of full memory over a pool, and the pool that they leave.
+"""Tightening: rank-one rows over a pool, and the pool that they leave.
 
 With every flight of interest in hand pricing is a look at each, so rows may be added by the
 hundred; each round raises the bound and drops the flights beyond the gap that is left.
@@ -7,6 +7,7 @@ hundred; each round raises the bound and drops the flights beyond the gap that i
 from collections.abc import Callable
 from dataclasses import dataclass
 
+import highspy
 import numpy as np
 from scipy.sparse import csc_array, csr_array, hstack, vstack
 
@@ -16,22 +17,25 @@ from windopt.solving.exact.labels import Ints
 from windopt.solving.exact.master import Duals
 from windopt.solving.exact.network import Bools, Floats
 from windopt.solving.exact.pool import Pool, reduced_costs
+from windopt.solving.exact.rank_one_rows import Rows, violated_rows
 from windopt.solving.exact.relaxation import MARGIN
 from windopt.solving.exact.search import Search
-from windopt.solving.exact.subset_row_cuts import MOST_VIOLATED, Triples, spread, violations
+from windopt.solving.exact.subset_row_cuts import MOST_VIOLATED, spread, violations
 
 FIRST, BATCH = 4000, 1000
 """Flights in the first linear program, and to add at once."""
 ROUNDS, ROWS, EACH = 60, 100, 6
 """Rounds of rows; rows in a round, and how many of them may share a turbine."""
+FEW = 50
+"""Violated subset rows so few that rows of four and five turbines are looked for as well."""
 LEAST_VIOLATION = 0.02
 """Violation from which a row is added."""
 SMALL = 1500
 """Flights few enough to leave the rest to branch and bound."""
 SATISFIED = 15_000
 """Flights few enough to stop when rows no longer help much."""
-HELPFUL = 0.02
-"""Part of the gap that a round of rows must close."""
+HELPFUL, BARELY = 0.02, 0.003
+"""Part of the gap that a round of rows must close, with few flights left and with many."""
 
 
 @dataclass(frozen=True)
@@ -40,22 +44,34 @@ class Tightened:
 
     Parameters
     ----------
-    triples
-        The subset rows that matter.
+    rows
+        The rank-one rows that matter.
     value
         The bound.
-    together
-        How much of the flights that visit both turbines is flown, shape ``(n, n)``.
-    sent
-        How many flights each station and all send, shape ``(k + 1,)``.
+    selection, x
+        The linear program that proves it, and how much of each of its flights is flown.
     """
 
     pool: Pool
     reduced: Floats
-    triples: Triples
+    rows: Rows
     value: float
-    together: Floats
-    sent: Floats
+    selection: "Selection"
+    x: Floats
+
+    @property
+    def together(self) -> Floats:
+        """How much of the flights that visit both turbines is flown, shape ``(n, n)``."""
+        members = self.selection.members.astype(float)
+        together: Floats = members.T @ (self.x[:, None] * members)
+        return together
+
+    @property
+    def sent(self) -> Floats:
+        """How many flights each station and all send, shape ``(k + 1,)``."""
+        stations = len(self.selection.counts) - 1
+        sent = np.bincount(self.selection.station, self.x, minlength=stations)
+        return np.append(sent, sent.sum())
 
 
 class Selection:
@@ -63,33 +79,33 @@ class Selection:
 
     Parameters
     ----------
-    triples
-        Subset rows to begin with.
+    rows
+        Rank-one rows to begin with.
     price
         Of leaving each turbine out, shape ``(n,)``.
     """
 
-    def __init__(self, n: int, counts: Floats, triples: Triples, price: Floats) -> None:
-        self.n, self.counts, self.triples, self.price = n, counts, triples, price
+    def __init__(self, n: int, counts: Floats, rows: Rows, price: Floats) -> None:
+        self.n, self.counts, self.rows, self.price = n, counts, rows, price
         self.members: Bools = np.zeros((0, n), bool)
         self.station: Ints = np.zeros(0, np.int32)
         self._program = set_partitioning(n, counts, integer=False, cover=True, price=price)
-        self._program.add_subset_rows(csr_array((len(triples), n)))
+        self._program.add_subset_rows(csr_array((rows.m, n)))
 
     def add(self, pool: Pool) -> None:
         """Add the flights of ``pool``."""
         members = pool.members(self.n)
-        coefficients = flight_rows(members, pool.station, len(self.counts), self.triples)
+        coefficients = flight_rows(members, pool.station, len(self.counts), self.rows)
         self._program.add_flights(pool.cost, coefficients)
         self.members = np.vstack([self.members, members])
         self.station = np.concatenate([self.station, pool.station])
 
-    def cut(self, triples: Triples) -> None:
+    def cut(self, rows: Rows) -> None:
         """Add rows."""
-        flights = csr_array(pairs(self.members, triples).T.astype(float))
-        left_out = csr_array((len(triples), self.n))
+        flights = csr_array(rows.coefficients(self.members).T)
+        left_out = csr_array((rows.m, self.n))
         self._program.add_subset_rows(csr_array(hstack([left_out, flights])))
-        self.triples = np.vstack([self.triples, triples])
+        self.rows = self.rows.joined(rows)
 
     def solve(self, clock: Clock) -> tuple[Duals, Floats]:
         """Return duals and flights flown."""
@@ -97,32 +113,42 @@ class Selection:
         clock.run(model)
         solution = model.getSolution()
         dual = np.array(solution.row_dual)
-        rows = self.n + len(self.counts)
+        first = self.n + len(self.counts)
         pi = np.clip(dual[: self.n], 0.0, self.price)
-        duals = Duals(pi, dual[self.n : rows], np.maximum(-dual[rows:], 0.0))
+        duals = Duals(pi, dual[self.n : first], np.maximum(-dual[first:], 0.0))
         return duals, np.array(solution.col_value)[self.n :]
 
+    def value_with(self, keep: Bools, counts: Floats, clock: Clock) -> float:
+        """Return the value of the program with the flights ``keep`` and other limits on counts."""
+        model = self._program.model
+        rows = np.arange(self.n, self.n + len(counts), dtype=np.int32)
+        dropped = (self.n + np.flatnonzero(~keep)).astype(np.int32)
+        nothing = np.zeros(len(dropped))
+        model.changeRowsBounds(len(rows), rows, counts[:, 0].copy(), counts[:, 1].copy())
+        model.changeColsBounds(len(dropped), dropped, nothing, nothing)
+        clock.check()
+        model.run()
+        solved = model.getModelStatus() == highspy.HighsModelStatus.kOptimal
+        value = float(model.getInfo().objective_function_value) if solved else np.inf
+        own = self.counts
+        model.changeRowsBounds(len(rows), rows, own[:, 0].copy(), own[:, 1].copy())
+        model.changeColsBounds(len(dropped), dropped, nothing, np.full(len(dropped), np.inf))
+        return value
 
-def pairs(members: Bools, triples: Triples) -> Bools:
-    """Return whether each flight visits two or more of each triple, shape ``(m, triples)``."""
-    a, b, c = (members[:, triples[:, q]] for q in range(3))
-    return (a & b) | (a & c) | (b & c)
 
-
-def flight_rows(members: Bools, station: Ints, counts: int, triples: Triples) -> csc_array:
+def flight_rows(members: Bools, station: Ints, counts: int, rows: Rows) -> csc_array:
     """Return the coefficients of flights in all rows of the set-partitioning program."""
     sent = np.zeros((counts, len(members)))
     sent[station, np.arange(len(members))] = 1.0
     sent[-1] = 1.0
-    cut = pairs(members, triples).T.astype(float)
-    blocks = [csc_array(members.T.astype(float)), csc_array(sent), csc_array(cut)]
-    return csc_array(vstack(blocks))
+    blocks = [members.T.astype(float), sent, rows.coefficients(members).T]
+    return csc_array(vstack([csc_array(block) for block in blocks]))
 
 
 def tighten(
     pool: Pool,
     reduced: Floats,
-    triples: Triples,
+    rows: Rows,
     counts: Floats,
     target: float,
     search: Search,
@@ -134,8 +160,8 @@ def tighten(
     ----------
     reduced
         A guess at the reduced costs, to begin with the flights that matter.
-    triples
-        Subset rows to begin with.
+    rows
+        Rank-one rows to begin with.
     counts
         Least and largest number of flights of each station, and of all, shape ``(k + 1, 2)``.
     target
@@ -149,7 +175,7 @@ def tighten(
     """
     inside = np.zeros(len(pool), bool)
     inside[np.argsort(reduced, kind="stable")[:FIRST]] = True
-    selection = Selection(search.n, counts, triples, search.forfeit)
+    selection = Selection(search.n, counts, rows, search.forfeit)
     selection.add(pool.kept(inside))
     before = -np.inf
     for _ in range(ROUNDS):
@@ -165,20 +191,29 @@ def tighten(
         flown = x > 1e-6
         if len(pool) <= SMALL or (x[flown] > 1 - 1e-6).all():
             break
-        if len(pool) <= SATISFIED and value - before < HELPFUL * gap:
+        needed = HELPFUL if len(pool) <= SATISFIED else BARELY
+        if value - before < needed * gap:
             break
-        visits = np.ascontiguousarray(selection.members[flown].T.astype(np.int64))
-        found, violation = violations(visits, x[flown], LEAST_VIOLATION, MOST_VIOLATED)
-        best = spread(found, violation, search.n, ROWS, EACH)
-        if not len(best):
+        found = _violated(selection.members[flown], x[flown], search.clock)
+        if not found.m:
             break
-        selection.cut(found[best])
+        selection.cut(found)
         before = value
-    members = selection.members.astype(float)
-    together = members.T @ (x[:, None] * members)
-    sent = np.bincount(selection.station, x, minlength=len(counts) - 1)
-    triples = selection.triples[duals.penalty > 1e-7]
-    return Tightened(pool, reduced, triples, value, together, np.append(sent, sent.sum()))
+    rows = selection.rows.kept(duals.penalty > 1e-7)
+    return Tightened(pool, reduced, rows, value, selection, x)
+
+
+def _violated(members: Bools, x: Floats, clock: Clock) -> Rows:
+    """Return rows that a fractional plan violates: subset rows, and others where these are few."""
+    n = members.shape[1]
+    visits = np.ascontiguousarray(members.T.astype(np.int64))
+    triples, violation = violations(visits, x, LEAST_VIOLATION, MOST_VIOLATED)
+    found = Rows.subsets(triples[spread(triples, violation, n, ROWS, EACH)])
+    if found.m < FEW:
+        others, violation = violated_rows(members, x, LEAST_VIOLATION, clock)
+        places = np.where(others.weight > 0, others.turbines, others.turbines[:, :1])
+        found = found.joined(others.kept(spread(places, violation, n, ROWS, EACH)))
+    return found
 
 
 def price_out(
@@ -198,7 +233,7 @@ def price_out(
     slices = pool.slices(selection.n, clock)
     while True:
         duals, x = selection.solve(clock)
-        reduced = reduced_costs(pool, slices, duals, selection.triples, clock)
+        reduced = reduced_costs(pool, slices, duals, selection.rows, clock)
         lacking = np.flatnonzero((reduced < -1e-6) & ~inside)
         if not len(lacking):
             return duals, x, reduced
