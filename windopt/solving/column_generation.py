@@ -27,8 +27,8 @@ EFFORT, MORE = 300_000, 1.5
 """Half flights that the first attempt to list all flights may hold, and the growth of that."""
 NARROWER = 0.75
 """What cuts must make of a gap whose flights were too many, before they are listed again."""
-SMALLER, SMALLEST = 0.5, 0.05
-"""By what a part of the gap shrinks whose flights are too many, and the part to give up at."""
+FARTHER, SMALLER = 1.5, 0.5
+"""By what a part of the gap grows whose flights could be listed, and shrinks if they could not."""
 THOROUGH = 2
 """Times the first local search to search again, and more each time flights are too many."""
 SOURCE = "column generation"
@@ -101,34 +101,30 @@ def _begin(search: Search, start: tuple[Route, ...] | None, seed: int) -> None:
 def _prove(search: Search, memory: float, seed: int) -> None:
     """Raise the bound to the plan, or find a better plan."""
     relaxation = Relaxation(search, memory, search.counts)
-    relaxation.solve()
+    relaxation.begin()
     while relaxation.grow_neighbourhoods() or relaxation.round_flights():
         pass
-    effort = float(EFFORT)
-    for failures in count(1):
+    effort, delta = float(EFFORT), inf
+    for attempt in count(1):
         fixing = relaxation.fix_arcs()
-        if fixing is not None and close(relaxation, fixing, inf, int(effort), search):
+        gap = relaxation.gap
+        listed = fixing is not None and close(relaxation, fixing, delta, int(effort), search)
+        if search.closed or (listed and delta >= gap):
             return
-        improve(search, seed + failures, THOROUGH * failures)
-        narrow = NARROWER * relaxation.gap
-        helps = True
-        while helps and relaxation.gap > narrow:
-            helps = relaxation.cut()
+        improve(search, seed + attempt, THOROUGH * attempt)
+        if _narrow(relaxation, NARROWER * gap):
+            delta = inf
+        else:
+            delta = min(delta, gap) * (FARTHER if listed else SMALLER)
         effort *= MORE
-        if relaxation.gap > narrow:
-            _close_part(relaxation, int(effort), search)
 
 
-def _close_part(relaxation: Relaxation, effort: int, search: Search) -> None:
-    """List the flights of as large a part of the gap as ``effort`` allows, and choose."""
-    fixing = relaxation.fix_arcs()
-    if fixing is None:
-        return
-    delta = relaxation.gap
-    while delta >= SMALLEST * relaxation.gap:
-        delta *= SMALLER
-        if close(relaxation, fixing, delta, effort, search):
-            return
+def _narrow(relaxation: Relaxation, gap: float) -> bool:
+    """Cut until the relaxation leaves no more than ``gap``, and tell whether cuts did it."""
+    while relaxation.gap > gap:
+        if not relaxation.cut():
+            return False
+    return True
 
 
 def _result(search: Search, stopped: Status) -> Result[tuple[Route, ...]]:

@@ -59,7 +59,7 @@ def random_duals(rng, relaxation, m):
 def setting(request):
     """Return a search, its relaxation with all turbines remembered, and some cuts."""
     rng = np.random.default_rng(request.param)
-    with Clock(60.0) as clock:
+    with Clock(600.0) as clock:
         search = Search(instance(request.param), clock)
         search.offer(alone(search.networks))
         relaxation = Relaxation(search, 1e9, np.tile([0.0, inf], (3, 1)))

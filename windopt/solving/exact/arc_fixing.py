@@ -16,6 +16,7 @@ from windopt.solving.exact.bits import NONE
 from windopt.solving.exact.clock import Clock
 from windopt.solving.exact.compiled import compiled
 from windopt.solving.exact.joins import cheapest, partner
+from windopt.solving.exact.labelling import labels
 from windopt.solving.exact.labels import (
     EPS,
     UNBOUNDED,
@@ -24,7 +25,6 @@ from windopt.solving.exact.labels import (
     Memory,
     Prices,
     carried,
-    labels,
 )
 from windopt.solving.exact.network import SLACK, Floats, Network, Side
 

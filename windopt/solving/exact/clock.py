@@ -38,7 +38,8 @@ class Clock:
         self.began = perf_counter()
         self.limit = limit
         self.stop = np.zeros(1, np.uint8)
-        self.workers = ThreadPoolExecutor(min(4, cpu_count() or 1))
+        self.threads = min(4, cpu_count() or 1)
+        self.workers = ThreadPoolExecutor(self.threads)
         self._alarm = Timer(max(0.0, min(limit, 1e7)), self.halt)
         self._alarm.daemon = True
 

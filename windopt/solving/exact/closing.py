@@ -28,6 +28,8 @@ def close(
     -------
     Whether the flights were not too many.
     """
+    if search.closed:
+        return True
     delta = min(delta, search.ceiling - fixing.value)
     networks = fixing.useful(relaxation.pricer.networks, delta)
     pool = enumerate_flights(

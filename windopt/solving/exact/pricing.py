@@ -7,7 +7,15 @@ from numpy.typing import NDArray
 
 from windopt.solving.exact.clock import Clock
 from windopt.solving.exact.joins import ALONE, alone, join
-from windopt.solving.exact.labels import UNBOUNDED, Labels, Memory, Prices, labels, path
+from windopt.solving.exact.labelling import labels
+from windopt.solving.exact.labels import (
+    LABEL_BYTES,
+    UNBOUNDED,
+    Labels,
+    Memory,
+    Prices,
+    path,
+)
 from windopt.solving.exact.master import Duals, Master
 from windopt.solving.exact.network import Floats, Network, Side
 from windopt.solving.exact.ng_neighbourhoods import Neighbourhoods
@@ -48,14 +56,24 @@ class Pricer:
 
     Parameters
     ----------
-    capacity
-        Labels of one side of one station to hold at most.
+    memory
+        What the labels of all stations may take [bytes].
     """
 
     networks: list[Network]
     neighbourhoods: Neighbourhoods
     clock: Clock
-    capacity: int
+    memory: float
+
+    def capacity(self, prices: Prices) -> int:
+        """Return how many labels of one side of one station fit into memory.
+
+        Those of all sides are held, and some sides are at work: each makes room for candidates
+        and for a copy.
+        """
+        held = LABEL_BYTES + 8 * prices.memory.shape[1]
+        sides = 2 * len(self.networks)
+        return int(self.memory / (held * (sides + 2 * min(sides, self.clock.threads))))
 
     def price(
         self, master: Master, duals: Duals, *, exact: bool, keep: int | None = None
@@ -69,12 +87,13 @@ class Pricer:
         """
         prices = master.cuts.prices(duals.pi, duals.penalty)
         memory = self.neighbourhoods.memory
+        capacity = self.capacity(prices)
         sides = [side for network in self.networks for side in (network.forward, network.backward)]
 
         def half(side: Side, network: Network) -> tuple[Labels, bool]:
             return labels(
                 side, prices, memory, network.t_max, network.half, bucket(network), exact,
-                keep or self.capacity, UNBOUNDED, self.capacity, self.clock.stop,
+                keep or capacity, UNBOUNDED, capacity, self.clock.stop,
             )  # fmt: skip
 
         twice = [network for network in self.networks for _ in range(2)]

@@ -6,7 +6,7 @@ from math import ceil, inf
 import numpy as np
 
 from windopt.solving.exact.arc_fixing import Completions, useful_arcs
-from windopt.solving.exact.labels import LABEL_BYTES, Memory, Prices
+from windopt.solving.exact.labels import Memory, Prices
 from windopt.solving.exact.master import Duals, Master
 from windopt.solving.exact.network import SLACK, Floats, Network
 from windopt.solving.exact.ng_neighbourhoods import nearest
@@ -88,10 +88,37 @@ class Relaxation:
         self.master = Master(networks, self.counts, self.search.prize)
         flights = (*alone(networks), *self.search.flights)
         self.master.add(self.master.column(d, path) for d, path in flights)
-        round_trips = np.minimum.reduce([network.legs + network.legs.T for network in networks])
-        capacity = int(LABELS_SHARE * self.memory / LABEL_BYTES)
-        neighbourhoods = nearest(round_trips, NEIGHBOURS)
-        self.pricer = Pricer(networks, neighbourhoods, self.search.clock, capacity)
+        neighbourhoods = nearest(self.round_trips, NEIGHBOURS)
+        memory = LABELS_SHARE * self.memory
+        self.pricer = Pricer(networks, neighbourhoods, self.search.clock, memory)
+
+    @property
+    def round_trips(self) -> Floats:
+        """Least time there and back between turbines, shape ``(n, n)``."""
+        networks = self.search.networks
+        trips: Floats = np.minimum.reduce([network.legs + network.legs.T for network in networks])
+        return trips
+
+    def begin(self) -> None:
+        """Solve the master over all flights, for the first time.
+
+        Raises
+        ------
+        LabelsOverflow
+            If memory does not suffice even where a flight remembers nothing but its last turbine.
+        OutOfTime
+            If time is up.
+        """
+        size = NEIGHBOURS
+        while True:
+            neighbourhoods = nearest(self.round_trips, size)
+            self.pricer = replace(self.pricer, neighbourhoods=neighbourhoods)
+            try:
+                return self.solve()
+            except LabelsOverflow:
+                if size == 1:
+                    raise
+                size //= 2
 
     def solve(self) -> None:
         """Solve the master over all flights.
@@ -194,6 +221,8 @@ class Relaxation:
 
         Cuts that make more labels than memory allows are taken back.
         """
+        if self.search.closed:
+            return False
         self.duals = self.master.solve(self.search.clock)
         gap, before = self.gap, self.master.cuts
         cuts = separate(before.kept(self.duals.penalty > TOLERANCE), self.master.flown())
@@ -227,7 +256,7 @@ class Relaxation:
         memory = self.pricer.neighbourhoods.memory
 
         def fix(network: Network, limit: float) -> tuple[Completions, Floats] | None:
-            capacity = self.pricer.capacity
+            capacity = self.pricer.capacity(prices)
             return useful_arcs(network, prices, memory, bucket(network), limit, capacity, clock)
 
         found = clock.map(fix, networks, self.duals.toll + gap + MARGIN)

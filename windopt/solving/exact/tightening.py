@@ -177,7 +177,7 @@ def tighten(
     inside[np.argsort(reduced, kind="stable")[:FIRST]] = True
     selection = Selection(search.n, counts, rows, search.forfeit)
     selection.add(pool.kept(inside))
-    before = -np.inf
+    before, larger = -np.inf, False
     for _ in range(ROUNDS):
         duals, x, reduced = price_out(selection, pool, inside, search.clock)
         value = duals.value(counts) + search.most_flights * min(0.0, reduced.min(initial=0.0))
@@ -191,10 +191,11 @@ def tighten(
         flown = x > 1e-6
         if len(pool) <= SMALL or (x[flown] > 1 - 1e-6).all():
             break
-        needed = HELPFUL if len(pool) <= SATISFIED else BARELY
-        if value - before < needed * gap:
-            break
-        found = _violated(selection.members[flown], x[flown], search.clock)
+        if value - before < (HELPFUL if len(pool) <= SATISFIED else BARELY) * gap:
+            if larger:
+                break
+            larger = True
+        found = _violated(selection.members[flown], x[flown], larger, search.clock)
         if not found.m:
             break
         selection.cut(found)
@@ -203,13 +204,19 @@ def tighten(
     return Tightened(pool, reduced, rows, value, selection, x)
 
 
-def _violated(members: Bools, x: Floats, clock: Clock) -> Rows:
-    """Return rows that a fractional plan violates: subset rows, and others where these are few."""
+def _violated(members: Bools, x: Floats, larger: bool, clock: Clock) -> Rows:
+    """Return rows that a fractional plan violates.
+
+    Parameters
+    ----------
+    larger
+        Whether to look for rows of four and five turbines even if there are enough of three.
+    """
     n = members.shape[1]
     visits = np.ascontiguousarray(members.T.astype(np.int64))
     triples, violation = violations(visits, x, LEAST_VIOLATION, MOST_VIOLATED)
     found = Rows.subsets(triples[spread(triples, violation, n, ROWS, EACH)])
-    if found.m < FEW:
+    if larger or found.m < FEW:
         others, violation = violated_rows(members, x, LEAST_VIOLATION, clock)
         places = np.where(others.weight > 0, others.turbines, others.turbines[:, :1])
         found = found.joined(others.kept(spread(places, violation, n, ROWS, EACH)))
