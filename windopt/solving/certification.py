@@ -16,6 +16,7 @@ from windopt.solving.exact.clock import Clock, OutOfTime
 from windopt.solving.exact.enumeration import enumerate_flights
 from windopt.solving.exact.pool import Pool, reduced_costs
 from windopt.solving.exact.pricing import LabelsOverflow
+from windopt.solving.exact.rank_one_rows import Rows
 from windopt.solving.exact.relaxation import Fixing, Relaxation
 from windopt.solving.exact.search import Search
 
@@ -68,9 +69,9 @@ def certify(
 def _relaxation(search: Search, memory: float) -> Relaxation:
     """Solve the relaxation over all flights."""
     relaxation = Relaxation(search, memory, search.counts)
-    relaxation.solve()
+    relaxation.begin()
     while relaxation.grow_neighbourhoods():
-        relaxation.solve()
+        pass
     return relaxation
 
 
@@ -113,5 +114,5 @@ def _listed(relaxation: Relaxation, fixing: Fixing, gap: float) -> Pool | None:
 def _all_left(pool: Pool, relaxation: Relaxation) -> Left:
     search, none = relaxation.search, np.zeros((0, 3), np.int64)
     slices = pool.slices(search.n, search.clock)
-    reduced = reduced_costs(pool, slices, relaxation.duals, none, search.clock)
+    reduced = reduced_costs(pool, slices, relaxation.duals, Rows.subsets(none), search.clock)
     return Left(pool, reduced, none, relaxation.counts)

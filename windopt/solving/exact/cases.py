@@ -17,6 +17,7 @@ from windopt.solving.exact.labels import Ints
 from windopt.solving.exact.master import Duals
 from windopt.solving.exact.network import Bools, Floats
 from windopt.solving.exact.pool import Pool
+from windopt.solving.exact.rank_one_rows import Rows
 from windopt.solving.exact.search import ProofError, Search
 from windopt.solving.exact.subset_row_cuts import MOST_VIOLATED, Triples, spread, violations
 from windopt.solving.exact.tightening import (
@@ -128,7 +129,9 @@ def _rounds(
     inside = np.zeros(len(left.pool), bool)
     inside[np.argsort(left.reduced, kind="stable")[:FIRST]] = True
     pool, counts = left.pool, left.counts
-    selection = Selection(search.n, counts, left.triples, np.minimum(search.prize, target))
+    selection = Selection(
+        search.n, counts, Rows.subsets(left.triples), np.minimum(search.prize, target)
+    )
     selection.add(pool.kept(inside))
     rounds: list[Round] = []
     recorded, before = np.inf, -np.inf
@@ -139,16 +142,16 @@ def _rounds(
         closed = gap <= CLOSED * target
         flown = _flown(selection, x)
         helps = not closed and value - before >= HELPFUL * gap
-        rows = _violated(flown) if helps else selection.triples[:0]
+        rows = _violated(flown) if helps else left.triples[:0]
         if closed or not len(rows) or gap < SHRUNK * recorded:
-            rounds.append(as_round(duals, selection.triples, counts, search.unit))
+            rounds.append(as_round(duals, selection.rows.turbines[:, :3], counts, search.unit))
             recorded = gap
             keep = reduced <= gap + MARGIN * target
             pool, reduced, inside = pool.kept(keep), reduced[keep], inside[keep]
         if closed or not len(rows):
-            triples = selection.triples[duals.penalty > NEGLIGIBLE]
+            triples = selection.rows.turbines[:, :3][duals.penalty > NEGLIGIBLE]
             return tuple(rounds), Left(pool, reduced, triples, counts), None if closed else flown
-        selection.cut(rows)
+        selection.cut(Rows.subsets(rows))
         before = value
 
 
