@@ -9,13 +9,15 @@ with several stations and a limit on the time of a flight in place of one on its
 
 # ruff: noqa: NPY002  (compiled code has a generator of its own, which only these names reach)
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
 from windopt.solving.exact.compiled import compiled
 from windopt.solving.exact.labels import Ints
 from windopt.solving.exact.network import SLACK, Floats
-from windopt.solving.exact.search import Search
+from windopt.solving.exact.search import Flight, Search
 from windopt.solving.exact.tours import (
     NOWHERE,
     Legs,
@@ -36,14 +38,13 @@ STRING = 10
 """Longest string to tear out of one flight ([1], section 6.2)."""
 BLINK = 0.01
 """Share of places that a recreation overlooks ([1], section 6.2)."""
-ITERATIONS = 300
+ITERATIONS = 150
 """Ruins and recreations for each turbine."""
-RUNS = 2
-"""Runs side by side, each with random numbers of its own."""
 CLOSE = 16
 """Nearest turbines beside which a turbine is put back; farther ones seldom cost least."""
-HOT, COLD = 5.0, 0.03
-"""First and last temperature, as fractions of the shortest leg of a typical turbine."""
+HOT, WARM, COLD = 5.0, 1.0, 0.03
+"""First temperature without and with a good start, and last temperature, as fractions of the
+shortest leg of a typical turbine."""
 
 
 @compiled
@@ -165,8 +166,10 @@ def _anneal(
             copy(now, trial)
 
 
-def improve(search: Search, seed: int, effort: int = 1) -> None:
-    """Offer the search better plans than its own: one from each of :data:`RUNS` runs.
+def improve(
+    search: Search, seed: int, effort: int = 1, start: Sequence[Flight] | None = None
+) -> None:
+    """Offer the search better plans than its own, from two runs side by side.
 
     Parameters
     ----------
@@ -174,8 +177,9 @@ def improve(search: Search, seed: int, effort: int = 1) -> None:
         Of the random numbers, which are the compiled code's own.
     effort
         Times :data:`ITERATIONS` to spend.
+    start
+        Flights for one run to begin with, few or many; the other begins with the best plan.
     """
-    networks = search.networks
     legs = Legs.of(search)
     distance = np.minimum.reduce(legs.between)
     typical = float(np.median(distance.min(axis=1)))
@@ -183,15 +187,17 @@ def improve(search: Search, seed: int, effort: int = 1) -> None:
     near = np.argsort(distance, axis=1, kind="stable").astype(np.int32)
     close = np.ascontiguousarray(near[:, 1 : CLOSE + 1])
     remoteness = (legs.out + legs.back).min(axis=0)
-    temperatures = typical * np.geomspace(HOT, COLD, effort * ITERATIONS * search.n)
+    hottest = HOT if start is None else WARM
+    temperatures = typical * np.geomspace(hottest, COLD, effort * ITERATIONS * search.n)
 
     def run(tours: Tours, number: int) -> None:
         stop = search.clock.stop
-        _anneal(tours, legs, near, close, remoteness, temperatures, RUNS * seed + number, stop)
+        _anneal(tours, legs, near, close, remoteness, temperatures, 2 * seed + number, stop)
 
-    plans = [tours_of(networks, search.flights) for _ in range(RUNS)]
+    starts = (search.flights, search.flights if start is None else start)
+    plans = [tours_of(search.networks, flights) for flights in starts]
     try:
-        search.clock.map(run, plans, range(RUNS))
+        search.clock.map(run, plans, range(len(plans)))
     finally:
         for plan in plans:
             search.offer(flights_of(plan))

@@ -11,7 +11,7 @@ from windopt.solving.exact.master import Duals, Master
 from windopt.solving.exact.network import SLACK, Floats, Network
 from windopt.solving.exact.ng_neighbourhoods import nearest
 from windopt.solving.exact.pricing import TOLERANCE, LabelsOverflow, Pricer, bucket
-from windopt.solving.exact.search import Search, alone
+from windopt.solving.exact.search import Flight, Search, alone
 from windopt.solving.exact.subset_row_cuts import Path, separate
 
 NEIGHBOURS, MOST_NEIGHBOURS = 8, 16
@@ -182,6 +182,19 @@ class Relaxation:
     def gap(self) -> float:
         """What the duals leave open."""
         return self.search.ceiling - self.value
+
+    def rounded(self) -> list[Flight]:
+        """Return flights that do not meet, those first which the solution flies most of."""
+        flights: list[Flight] = []
+        visited: set[int] = set()
+        left = self.search.counts[:-1, 1].copy()
+        for column, _ in sorted(self.master.flown(), key=lambda flown: -flown[1]):
+            again = len(set(column.path)) < len(column.path) or visited & set(column.path)
+            if not again and left[column.station] > 0:
+                flights.append((column.station, column.path))
+                visited |= set(column.path)
+                left[column.station] -= 1
+        return flights
 
     def grow_neighbourhoods(self) -> bool:
         """Forbid the cycles that the solution flies, and tell whether that raised the bound."""
