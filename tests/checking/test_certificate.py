@@ -8,7 +8,7 @@ import pytest
 import windopt
 from windopt.checking import tails
 from windopt.checking.certificate import check_certificate
-from windopt.domain.certificate import Case, Sent, Together
+from windopt.domain.certificate import Case, Round, Sent, Together
 from windopt.domain.farm import Farm
 from windopt.domain.fleet import Fleet, Station, Uav
 from windopt.domain.plan import Unreachable
@@ -205,6 +205,24 @@ def test_a_certificate_is_about_one_farm_one_fleet_and_one_wind():
     renamed = Fleet(tuple(replace(each, name=f"{each.name}!") for each in plan.fleet.stations))
     (violation,) = check_certificate(replace(plan, fleet=renamed), 0.0, certificate).violations
     assert violation == "it is not about the stations of the plan"
+
+
+@pytest.mark.parametrize("huge", [1e308, 1e30, 1e15])
+def test_no_rounding_of_huge_prices_proves_anything(branched, huge):
+    result, certificate = branched
+    n, k = len(certificate.turbines), len(certificate.stations)
+    none = np.zeros((0, 3), np.int64), np.zeros(0)
+    for prices in np.full(n, huge), huge * (-1.0) ** np.arange(n):
+        forged = Case((Round(prices, np.zeros(k + 1), *none),))
+        (fault,) = faults(result, certificate, case=forged)
+        assert "out of scale" in fault
+
+
+def test_a_certificate_is_not_looked_at_before_the_plan_passes(branched):
+    result, certificate = branched
+    report = windopt.check(replace(result, objective=1.0), certificate)
+    assert report.violations
+    assert report.unverified == ("certificate: it is not looked at before the plan passes",)
 
 
 def test_wrong_neighbours_only_take_longer(branched):

@@ -14,7 +14,7 @@ from windopt.checking.times import Times
 
 def random_times(rng, n):
     """Return times that obey no triangle inequality, some of them infinite, some zero."""
-    between = rng.uniform(0, 100, (n, n)) * (rng.random((n, n)) > 0.1)
+    between = rng.uniform(3, 100, (n, n)) * (np.tri(n).T + (rng.random((n, n)) > 0.3) > 0)
     between[rng.random((n, n)) < 0.1] = np.inf
     np.fill_diagonal(between, np.inf)
     out, back = rng.uniform(0, 100, (2, n))
@@ -77,3 +77,13 @@ def test_too_many_partial_flights_are_refused(monkeypatch, module, limit):
     times = Times(np.full(9, 10.0), np.full(9, 10.0), between, 60.0)
     with pytest.raises(TooMany):
         cheap_flights([times], np.full(9, 12.0), [range(9)] * 9, [50.0])
+
+
+def test_turbines_at_one_place_may_be_flown_round_for_ever_unless_they_are_neighbours(monkeypatch):
+    monkeypatch.setattr(tails, "MOST", 1000)
+    between = np.array([[np.inf, 0.0], [0.0, np.inf]])
+    times = Times(np.full(2, 10.0), np.full(2, 10.0), between, 60.0)
+    flights = cheap_flights([times], np.full(2, 5.0), [(1,), (0,)], [20.0])
+    assert sorted(flights.time) == [20.0, 20.0, 20.0]
+    with pytest.raises(TooMany):
+        cheap_flights([times], np.full(2, 5.0), [(), ()], [20.0])

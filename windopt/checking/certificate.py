@@ -21,6 +21,8 @@ TOLERANCE = 1e-7
 """Part of the bound that a proof may lack."""
 MARGIN = 1e-8
 """Part of the bound that gaps are widened by before flights are dropped: far more than rounding."""
+LARGEST = 1e3
+"""Bounds that a price may be: rounding is then a 1e-11th of the bound, and far from the margin."""
 OVERSTATED = 1e-6
 """Relative; what a bound may exceed its proof by, as it may exceed an objective."""
 
@@ -30,9 +32,9 @@ def check_certificate(plan: InspectionPlan, bound: float, certificate: Certifica
 
     Plans are those that visit the turbines within reach, or forgo their worth where ``plan`` may.
     """
-    strangers = tuple(_strangers(plan, certificate))
-    if strangers:
-        return Report(strangers)
+    refused = (*_strangers(plan, certificate), *_out_of_scale(certificate))
+    if refused:
+        return Report(refused)
     proved = certificate.proof.bound
     violations = []
     if bound > proved + OVERSTATED * max(1.0, proved):
@@ -53,6 +55,18 @@ def _strangers(plan: InspectionPlan, certificate: Certificate) -> Iterator[str]:
         yield "it is not about the turbines within reach"
     if certificate.stations != plan.fleet.names:
         yield "it is not about the stations of the plan"
+
+
+def _out_of_scale(certificate: Certificate) -> Iterator[str]:
+    """Numbers so large that their rounding might matter."""
+    proof = certificate.proof
+    numbers = [proof.prices, proof.tolls]
+    for case in proof.case.all():
+        for each in case.rounds:
+            numbers += [each.prices, each.tolls, each.penalties]
+    largest = max(float(np.abs(each).max(initial=0.0)) for each in numbers)
+    if largest > LARGEST * proof.bound:
+        yield f"it has a price of {largest:.6g} s, which is out of scale"
 
 
 def _faults(plan: InspectionPlan, certificate: Certificate) -> tuple[list[str], str]:

@@ -15,6 +15,7 @@ from windopt.result import Result, Status
 
 Checkable = Plan | InspectionPlan | YawPlan | Result[InspectionPlan] | Result[YawPlan]
 
+UNTOUCHED = Report(unverified=("it is not looked at before the plan passes",))
 TOLERANCE = 1e-6
 """Relative; the accuracy to which solvers keep their own constraints."""
 
@@ -37,7 +38,9 @@ def check(plan: Checkable, certificate: Certificate | None = None) -> Report:
         If a certificate comes with a plan of which no bound is claimed.
     """
     if certificate is not None:
-        return check(plan) + _check_proof(plan, certificate).about("certificate")
+        report = check(plan)
+        proof = _check_proof(plan, certificate) if report.passed else UNTOUCHED
+        return report + proof.about("certificate")
     if isinstance(plan, Plan):
         return _check_steps(plan)
     if isinstance(plan, Result):

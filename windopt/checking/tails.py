@@ -3,9 +3,8 @@
 A tail is the part of a flight from one of its turbines to the station. To keep them few a tail
 forgets the turbines far from where it has been since: it remembers one only as long as all that it
 visits have that turbine for a neighbour. So it may visit a turbine twice, which makes the least
-cost a bound whatever the neighbours are; no flight has more turbines than there are, so no tail
-need have. Tails grow from the station backwards, a turbine at a time. Of two at a turbine one is
-useless if the other is no later, no dearer and remembers no more.
+cost a bound whatever the neighbours are. Tails grow from the station backwards, a turbine at a
+time. Of two at a turbine one is useless if the other is no later, no dearer and remembers no more.
 """
 
 from math import inf
@@ -220,7 +219,8 @@ def _all_tails(market: Market, horizon: float, rest: Stairs, half: float) -> Tai
     tails.visited[:end], tails.at[:end], tails.earlier[:end] = singles(n)[last], last, -1
     tails.latest[last] = np.arange(end)
     start = 0
-    for _ in range(n):
+    # A tail may be useless beside one of more turbines than there are, so these grow on as well.
+    while start < end:
         start, end = end, _lengthen(tails, start, end, market, horizon, rest, half)
         if end < 0:
             raise TooMany
