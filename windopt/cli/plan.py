@@ -19,7 +19,7 @@ from windopt.domain.power_curve import STANDARD_AIR_DENSITY
 from windopt.domain.wind import WindSeries
 from windopt.planning.plan import DEFAULT_FORECASTER
 from windopt.planning.plan import plan as make_plan
-from windopt.planning.yaw import DEFAULT_METHOD as DEFAULT_YAW_METHOD
+from windopt.planning.schedule import METHOD as DEFAULT_YAW_METHOD
 
 WindFile = Annotated[
     Path, typer.Option("--wind", help="CSV file with time, speed and direction, or WIND Toolkit's.")

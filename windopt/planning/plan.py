@@ -19,10 +19,10 @@ from windopt.forecasting.lstm import EdgeForecaster
 from windopt.forecasting.persistence import Persistence
 from windopt.planning.assignment import Assignment
 from windopt.planning.inspection import DEFAULT_METHOD, plan_inspection
+from windopt.planning.schedule import METHOD as DEFAULT_YAW_METHOD
 from windopt.planning.schedule import Pace, plan_schedule
 from windopt.planning.search_options import MEMORY
 from windopt.planning.start import Start
-from windopt.planning.yaw import DEFAULT_METHOD as DEFAULT_YAW_METHOD
 from windopt.result import Result, Status
 from windopt.trace import Progress
 

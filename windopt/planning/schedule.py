@@ -22,11 +22,15 @@ from windopt.domain.wind import Wind, WindForecast
 from windopt.domain.yaw_problem import YawProblem
 from windopt.errors import InvalidInput
 from windopt.planning.turbine_yaw import present_misalignments
-from windopt.planning.yaw import DEFAULT_METHOD, curve_of, judged_plan, method_named
+from windopt.planning.yaw import curve_of, judged_plan, method_named
 from windopt.result import Result, Status
 from windopt.wakes.farm import farm_power
 
 Floats = NDArray[np.float64]
+
+METHOD = "serial-refine"
+"""What decides a step unless another method is asked for. On 165 turbines and 5 directions it takes
+half a second of processor time, the nonlinear program 4 to 8 s for 0.1 to 0.3 % more power."""
 
 SPREAD = (0.1, 0.3, 0.5, 0.7, 0.9)
 """Levels whose directions stand for a forecast's spread, each a fifth of what may come."""
@@ -60,7 +64,7 @@ def plan_schedule(
     forecast: WindForecast,
     *,
     nacelle: float | Sequence[float],
-    method: str = DEFAULT_METHOD,
+    method: str = METHOD,
     steering: Steering | None = None,
     pace: Pace | None = None,
     air_density: float = STANDARD_AIR_DENSITY,

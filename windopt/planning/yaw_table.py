@@ -1,9 +1,9 @@
 """Yaw tables: one wind-steering problem for each direction and speed, side by side.
 
-Cells are solved apart from each other, on as many processors as there are. Then each tries the
-misalignments of its neighbours in direction and in speed and keeps the best, until none improves:
-the answer of a luckier neighbour leads out of a local optimum, and tables get smoother. What each
-cell delivers is judged by the exact model.
+Directions are solved apart from each other, on as many processors as there are, and each speed from
+the answer of the speed before it. Then every cell tries the misalignments of its neighbours in
+direction and in speed and keeps the best, until none improves: the answer of a luckier neighbour
+leads out of a local optimum. What each cell delivers is judged by the exact model.
 """
 
 from collections.abc import Callable, Iterator
@@ -26,6 +26,7 @@ from windopt.errors import InvalidInput
 from windopt.planning.turbine_yaw import GAP
 from windopt.planning.yaw import BOUND_SOURCE, DEFAULT_METHOD, curve_of, method_named
 from windopt.result import Result, Status
+from windopt.solving.farm_yaw import steer
 from windopt.wakes.farm import farm_power
 
 Floats = NDArray[np.float64]
@@ -111,9 +112,9 @@ def plan_yaw_table(
         for direction in theta
         for speed in v
     ]
-    found = []
-    for result in _solved(problems, method, effort):
-        found.append(result)
+    found: list[Result[NDArray[np.float64]]] = []
+    for row in _solved(problems, len(v), method, effort):
+        found += row
         if done is not None:
             done(len(found), len(problems))
     shape = len(theta), len(v)
@@ -148,21 +149,30 @@ def _axis(field: str, values: ArrayLike, low: float, high: float) -> Floats:
 
 
 def _solved(
-    problems: list[YawProblem], method: str, effort: Effort
-) -> Iterator[Result[NDArray[np.float64]]]:
-    """Yield the answer of each cell, in order."""
+    problems: list[YawProblem], V: int, method: str, effort: Effort
+) -> Iterator[list[Result[NDArray[np.float64]]]]:
+    """Yield the answers of each direction, in order: one for each of its V speeds."""
     deadline = time() + effort.time_limit  # the clock that processes share
-    tasks = (delayed(_solve)(problem, method, deadline, effort.seed) for problem in problems)
+    rows = (problems[first : first + V] for first in range(0, len(problems), V))
+    tasks = (delayed(_row)(row, method, deadline, effort.seed) for row in rows)
     yield from Parallel(n_jobs=effort.jobs, return_as="generator")(tasks)
 
 
-def _solve(
-    problem: YawProblem, method: str, deadline: float, seed: int
-) -> Result[NDArray[np.float64]]:
-    left = deadline - time()
-    if left <= 0:
-        return Result(Status.NO_SOLUTION, None, -inf, problem.bound, 0.0)
-    return method_named(method)(problem, time_limit=left, seed=seed)
+def _row(
+    problems: list[YawProblem], method: str, deadline: float, seed: int
+) -> list[Result[NDArray[np.float64]]]:
+    """Solve one direction speed by speed; the program goes on from the answer of the last speed."""
+    found: list[Result[NDArray[np.float64]]] = []
+    for problem in problems:
+        left = deadline - time()
+        if left <= 0:
+            found.append(Result(Status.NO_SOLUTION, None, -inf, problem.bound, 0.0))
+        elif method == "nlp" and found:
+            start = found[-1].solution
+            found.append(steer(problem, time_limit=left, seed=seed, start=start))
+        else:
+            found.append(method_named(method)(problem, time_limit=left, seed=seed))
+    return found
 
 
 def _angles(problem: YawProblem, result: Result[NDArray[np.float64]]) -> Floats:
