@@ -4,11 +4,11 @@ import argparse
 import shlex
 import sys
 from fnmatch import fnmatch
-from importlib import import_module
 from pathlib import Path
 
 from benchmarks.case import Case
-from benchmarks.registry import PROBLEMS, SETS, TABLES, problem
+from benchmarks.records import read_lines
+from benchmarks.registry import PROBLEMS, SETS, problem
 from benchmarks.runner import run
 
 MEASURED = Path("measured")
@@ -20,10 +20,6 @@ PAGES = Path("docs/benchmarks/generated")
 
 def main(words: list[str] | None = None) -> None:
     """Run a benchmark, or report what was measured."""
-    words = sys.argv[1:] if words is None else words
-    if words[:1] == ["run"] and set(words[1:2]) & set(TABLES):
-        import_module(TABLES[words[1]]).main(words[2:])
-        return
     chosen = _parser().parse_args(words)
     chosen.command(chosen)
 
@@ -33,10 +29,9 @@ def _parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(required=True)
     running = commands.add_parser("run", help="measure; a line of JSON for each case")
     add = running.add_argument
-    tables = f"or {' or '.join(TABLES)}, which have options of their own"
-    add("problem", nargs="?", default="all", choices=(*PROBLEMS, "all"), help=tables)
+    add("problem", nargs="?", default="all", choices=(*PROBLEMS, "all"))
     add("--set", default="small", choices=SETS, help="of instances (default: %(default)s)")
-    add("--instance", nargs="+", default=["*"], metavar="PATTERN", help="only these of the set")
+    add("--instance", nargs="+", default=["*"], metavar="PATTERN", help="only these")
     add("--method", nargs="+", metavar="NAME", help="only these; or module:function")
     add("--time-limit", type=float, help="of each case [s]; each set has its own")
     add("--seed", type=int, nargs="+", default=[0])
@@ -49,7 +44,21 @@ def _parser() -> argparse.ArgumentParser:
     reporting.add_argument("--lines", type=Path, help=f"their folder ({MEASURED}, or {RESULTS})")
     reporting.add_argument("--out", type=Path, default=PAGES, help="default: %(default)s")
     reporting.set_defaults(command=_report)
+    exporting = commands.add_parser("export", help="write routing instances in VRPLIB form")
+    exporting.add_argument("--set", default="small", choices=SETS)
+    exporting.add_argument("--instance", nargs="+", default=["*"], metavar="PATTERN")
+    exporting.add_argument("--lines", type=Path, default=RESULTS, help="with the best plans known")
+    exporting.add_argument("--out", type=Path, required=True)
+    exporting.set_defaults(command=_export)
     return parser
+
+
+def _export(chosen: argparse.Namespace) -> None:
+    from benchmarks.vrplib_files import export
+
+    lines = chosen.lines / "routing.jsonl"
+    written = export(_chosen("routing", chosen), read_lines(lines), chosen.out)
+    print(f"{len(written)} instances in {chosen.out}")
 
 
 def _report(chosen: argparse.Namespace) -> None:
@@ -66,20 +75,32 @@ def _run(chosen: argparse.Namespace) -> None:
         lines = chosen.out / f"{name}.jsonl"
         if lines.exists() and not chosen.resume:
             sys.exit(f"{lines} exists: add --resume to go on, or name another folder by --out.")
-        cases = list(_cases(name, chosen))
+        cases = _cases(name, chosen)
+        if not cases:
+            print(f"{name}: nothing in the set {chosen.set}")
+            continue
         found = run(cases, lines, jobs=chosen.jobs, scheduler=chosen.scheduler, command=command)
         failed = sum(record["status"] == "failed" for record in found)
         print(f"{lines}: {len(found)} cases, {failed} failed")
 
 
+def _chosen(name: str, chosen: argparse.Namespace) -> list[str]:
+    """Return the instances of the set that a pattern fits, and others that are named in full."""
+    every = problem(name).instances(chosen.set)
+    fitting = [one for one in every if any(fnmatch(one, pattern) for pattern in chosen.instance)]
+    others = [one for one in chosen.instance if one not in every and not set(one) & set("*?[")]
+    return [*fitting, *others]
+
+
 def _cases(name: str, chosen: argparse.Namespace) -> list[Case]:
     kind = problem(name)
+    if chosen.set not in kind.time_limits:
+        return []
     limit = chosen.time_limit or kind.time_limits[chosen.set]
     methods = chosen.method or kind.methods(chosen.set)
     return [
         Case(name, instance, method, limit, seed)
-        for instance in kind.instances(chosen.set)
-        if any(fnmatch(instance, pattern) for pattern in chosen.instance)
+        for instance in _chosen(name, chosen)
         for method in methods
         for seed in chosen.seed
     ]

@@ -1,6 +1,6 @@
 """What quantisation buys on a small machine: bytes and time, one window at a time.
 
-``python -m benchmarks run edge [--out FILE.csv]`` compares, in one process on one thread, torch
+``python -m benchmarks.edge [--out FILE.csv]`` compares, in one process on one thread, torch
 as it trains, ONNX Runtime in floats and with dynamic int8, and windopt's NumPy networks, each in
 several bit widths and beside small networks in floating point. Times are minima of many runs: the
 ratios carry over to other machines, the times do not. What is not installed is left out and said
@@ -216,3 +216,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     if chosen.out:
         with chosen.out.open("w", newline="") as file:
             csv.writer(file, lineterminator="\n").writerows(rows)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,6 +1,6 @@
 """The paper's two tables of forecast errors, on another series, with persistence beside them.
 
-``python -m benchmarks run forecast [FILE] [--bits 32 4] [--seeds 0 1 2] [--no-rivals]`` trains on
+``python -m benchmarks.forecast [FILE] [--bits 32 4] [--seeds 0 1 2] [--no-rivals]`` trains on
 the first two thirds of a 5- or 10-minute series, the built-in month unless given, and scores the
 last third; ``--out FILE.csv`` keeps the tables. The paper's data set is not public; the series is
 another, so the figures stand beside the paper's and do not reproduce them.
@@ -162,3 +162,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     if chosen.out:
         with chosen.out.open("w", newline="") as file:
             csv.writer(file, lineterminator="\n").writerows(found)
+
+
+if __name__ == "__main__":
+    main()

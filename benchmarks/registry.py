@@ -7,13 +7,12 @@ from benchmarks.case import Problem
 PROBLEMS = {
     "routing": "benchmarks.routing",
     "yaw": "benchmarks.yaw",
+    "forecast": "benchmarks.forecast_cases",
+    "edge": "benchmarks.edge_cases",
 }
 """Module of each problem, whose ``PROBLEM`` describes it."""
 
-TABLES = {"forecast": "benchmarks.forecast", "edge": "benchmarks.edge"}
-"""Module of each benchmark that prints a table of its own, by options of its own."""
-
-SETS = "small", "medium", "full", "growth"
+SETS = "small", "medium", "full", "growth", "guard"
 
 
 def problem(name: str) -> Problem:

@@ -1,6 +1,7 @@
 """How Sphinx builds these pages: ``sphinx-build -W -n -b html docs docs/_build/html``."""
 
 import re
+import sys
 from collections.abc import Iterator
 from functools import partial
 from importlib.util import find_spec
@@ -20,6 +21,7 @@ from typer.testing import CliRunner
 import windopt
 from windopt.cli import app as windopt_app
 
+sys.path.insert(0, str(Path(__file__).parents[1]))  # the benchmarks are not installed
 matplotlib.use("agg")
 
 project = "windopt"
@@ -108,6 +110,14 @@ def write_command_line(app: Sphinx) -> None:
     page.write_text("\n".join(texts), encoding="utf-8")
 
 
+def write_benchmarks(app: Sphinx) -> None:
+    """Write the pages of what was measured from the lines that are kept."""
+    from benchmarks.report.pages import write_pages
+
+    lines = Path(app.srcdir).parent / "benchmarks" / "results"
+    write_pages(lines, Path(app.srcdir, "benchmarks", "generated"))
+
+
 def resolve_public_name(
     app: Sphinx, env: BuildEnvironment, node: pending_xref, contnode: Node
 ) -> Any:
@@ -125,4 +135,5 @@ def setup(app: Sphinx) -> None:
     """Connect the functions above."""
     app.connect("autodoc-process-signature", shorten_arrays)
     app.connect("builder-inited", write_command_line)
+    app.connect("builder-inited", write_benchmarks)
     app.connect("missing-reference", resolve_public_name)

@@ -72,22 +72,22 @@ class Row:
 
 
 FORMATS = {
-    "instance": "16",
-    "method": "16",
-    "seed": "4",
-    "status": "11",
-    "objective": "10.2f",
-    "bound": "10.2f",
-    "gap": "8.2%",
-    "LP bound": "10.2f",
-    "after cuts": "10.2f",
-    "rounds": "6",
-    "rows added": "10",
-    "nodes": "6",
-    "runtime": "7.2f",
-    "faults": "6",
+    "instance": (16, ""),
+    "method": (16, ""),
+    "seed": (4, ""),
+    "status": (11, ""),
+    "objective": (10, ".2f"),
+    "bound": (10, ".2f"),
+    "gap": (8, ".2%"),
+    "LP bound": (10, ".2f"),
+    "after cuts": (10, ".2f"),
+    "rounds": (6, ""),
+    "rows added": (10, ""),
+    "nodes": (6, ""),
+    "runtime": (7, ".2f"),
+    "faults": (6, ""),
 }
-"""How :class:`Comparison` prints each column."""
+"""Width and format of each column as :class:`Comparison` prints it."""
 
 
 @dataclass(frozen=True)
@@ -97,9 +97,7 @@ class Comparison:
     rows: tuple[Row, ...]
 
     def __str__(self) -> str:
-        head = "  ".join(
-            f"{name:>{form.split('.')[0].rstrip('%')}}" for name, form in FORMATS.items()
-        )
+        head = "  ".join(f"{name:>{width}}" for name, (width, _) in FORMATS.items())
         return "\n".join([head, *(_line(row.cells) for row in self.rows)])
 
     def frame(self) -> "DataFrame":
@@ -118,7 +116,7 @@ class Comparison:
 
 
 def _line(cells: Mapping[str, Any]) -> str:
-    return "  ".join(f"{cells[name]:>{form}}" for name, form in FORMATS.items())
+    return "  ".join(f"{cells[name]:>{width}{form}}" for name, (width, form) in FORMATS.items())
 
 
 def compare(

@@ -73,23 +73,28 @@ def by_method(records: Sequence[Record]) -> Rows:
     """Return a row for each method: how often it proved its plan, and how far plans are off."""
     known = best_known(records)
     rows = [
-        ["method", "cases", "failed", "proved", "median s to proof", "plan above bound: median",
-         "mean", "worst", "is the best plan"]
+        ["method", "cases", "failed", "proved", "median s to proof", "of a processor",
+         "plan above bound: median", "mean", "worst", "is the best plan"]
     ]  # fmt: skip
     for method in methods(records):
         mine = [record for record in records if record["method"] == method]
         found = [record for record in answered(mine) if record["objective"] is not None]
         gaps = [above(record, known[instance(record)]) for record in found]
         times = [record["runtime"] for record in found if proved(record)]
+        busy = [record["cpu"] for record in found if proved(record)]
         best = sum(
             record["objective"] <= known[instance(record)].objective * (1 + PROVED)
             for record in found
         )
         rows.append(
             [method, str(len(mine)), str(len(mine) - len(answered(mine))), str(len(times)),
-             f"{median(times):.1f}" if times else "-", *_shares(gaps), str(best)]
+             _median(times), _median(busy), *_shares(gaps), str(best)]
         )  # fmt: skip
     return rows
+
+
+def _median(times: Sequence[float]) -> str:
+    return f"{median(times):.1f}" if times else "-"
 
 
 def _shares(gaps: Sequence[float]) -> list[str]:
