@@ -96,6 +96,27 @@ def test_time_limit_is_kept_with_a_plan_and_a_bound():
     duration_is_kept(instance, result.solution)
 
 
+@pytest.mark.parametrize("labels", [40, 200, 1000])
+def test_too_many_labels_for_memory_leave_a_plan_and_a_bound(monkeypatch, labels):
+    instance = grid(5, 800.0)
+    best = column_generation(instance)
+    monkeypatch.setattr("windopt.solving.exact.pricing.Pricer.capacity", lambda *_: labels)
+    result = column_generation(instance, time_limit=2.0)
+    assert 0 < result.bound <= best.objective + 1e-6
+    assert result.objective >= best.objective - 1e-6
+    duration_is_kept(instance, result.solution)
+
+
+def test_lists_that_are_too_long_at_first_are_made_again(monkeypatch):
+    instance = grid(5, 800.0)
+    best = column_generation(instance)
+    monkeypatch.setattr("windopt.solving.column_generation.EFFORT", 50)
+    monkeypatch.setattr("windopt.solving.column_generation.MORE", 5.0)
+    result = column_generation(instance, time_limit=60.0)
+    assert result.status is Status.OPTIMAL
+    assert result.objective == pytest.approx(best.objective)
+
+
 def test_no_time_at_all_still_gives_a_plan_and_a_bound():
     instance = grid(4, 900.0)
     result = column_generation(instance, time_limit=0.0)

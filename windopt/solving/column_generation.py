@@ -104,7 +104,8 @@ def _prove(search: Search, memory: float, seed: int) -> None:
     relaxation.begin()
     while relaxation.grow_neighbourhoods() or relaxation.round_flights():
         pass
-    improve(search, seed + 1, start=relaxation.rounded())
+    rounded = relaxation.rounded()
+    improve(search, seed + 1, start=rounded)
     effort, delta = float(EFFORT), inf
     for attempt in count(1):
         fixing = relaxation.fix_arcs()
@@ -112,11 +113,12 @@ def _prove(search: Search, memory: float, seed: int) -> None:
         listed = fixing is not None and close(relaxation, fixing, delta, int(effort), search)
         if search.closed or (listed and delta >= gap):
             return
-        improve(search, seed + 1 + attempt, THOROUGH * attempt, relaxation.rounded())
+        improve(search, seed + 1 + attempt, THOROUGH * attempt, rounded)
         if _narrow(relaxation, NARROWER * gap):
             delta = inf
         else:
             delta = min(delta, gap) * (FARTHER if listed else SMALLER)
+        rounded = relaxation.rounded()
         effort *= MORE
 
 

@@ -11,6 +11,7 @@ from windopt.solving.exact.clock import Clock
 from windopt.solving.exact.enumeration import enumerate_flights
 from windopt.solving.exact.master import Duals
 from windopt.solving.exact.ng_neighbourhoods import Neighbourhoods
+from windopt.solving.exact.pricing import Pricer
 from windopt.solving.exact.relaxation import Relaxation
 from windopt.solving.exact.search import Search, alone
 from windopt.solving.exact.subset_row_cuts import Cuts
@@ -72,6 +73,45 @@ def setting(request):
         cuts = Cuts(triples, np.ones((len(triples), search.n), bool))
         relaxation.master.rebuild(relaxation.master.columns, cuts)
         yield search, relaxation, random_duals(rng, relaxation, len(triples))
+
+
+def test_as_many_flights_are_sent_as_the_bound_takes(setting):
+    search, relaxation, _ = setting
+    relaxation.solve()
+    before = relaxation.value
+    relaxation.round_flights()
+    longest = max(network.t_max for network in search.networks)
+    assert relaxation.counts[-1, 0] == np.ceil(search.bound / longest - 1e-6)
+    assert sum(x for _, x in relaxation.master.flown()) >= relaxation.counts[-1, 0] - 1e-6
+    assert relaxation.value >= before - 1e-6
+
+
+def test_flights_rounded_from_the_relaxation_do_not_meet(setting):
+    _, relaxation, _ = setting
+    relaxation.solve()
+    flights = relaxation.rounded()
+    visits = [i for _, path in flights for i in path]
+    assert flights
+    assert len(visits) == len(set(visits))
+
+
+def test_cuts_that_overflow_are_taken_back(setting, monkeypatch):
+    _, relaxation, _ = setting
+    relaxation.solve()
+    before = relaxation.value
+
+    def overflow(self, prices):
+        return 100_000 if len(relaxation.master.cuts) == held else 1
+
+    held = len(relaxation.master.cuts)
+    monkeypatch.setattr(Pricer, "capacity", overflow)
+    monkeypatch.setattr(
+        "windopt.solving.exact.relaxation.separate",
+        lambda cuts, flown: Cuts(np.array([[0, 1, k] for k in range(2, 7)]), np.ones((5, 7), bool)),
+    )
+    assert not relaxation.cut()
+    assert len(relaxation.master.cuts) == held
+    assert relaxation.value == pytest.approx(before, abs=1e-3)
 
 
 def test_the_least_reduced_cost_is_found(setting):

@@ -232,7 +232,7 @@ def labels(
     bound
         Drops labels that cannot end below its limit.
     capacity
-        Labels to hold at most.
+        Labels to hold at most, not counting the first of each turbine.
     stop
         Set to non-zero by another thread to end the search.
 
@@ -241,6 +241,7 @@ def labels(
     The :class:`Labels`, and whether they are complete.
     """
     n, words = prices.memory.shape
+    capacity = max(capacity, n)
     buckets = int(horizon / width) + 1
     layers = LAYERS * buckets + 1
     found, waiting = _rooms(capacity, words, layers, buckets, n)

@@ -106,7 +106,7 @@ class Master:
             self.n, self.counts, integer=False, cover=True, price=self.price
         )
         self._program.add_subset_rows(csr_array((len(self.cuts), self.n)))
-        self.columns, self._known = [], set()
+        self.columns, self._known, self.x = [], set(), np.zeros(0)
         self.add(columns)
 
     def recount(self, counts: Floats) -> None:

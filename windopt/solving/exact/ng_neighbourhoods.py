@@ -10,6 +10,7 @@ of the fractional plan at hand [2].
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -26,7 +27,9 @@ class Neighbourhoods:
 
     sets: tuple[frozenset[int], ...]
 
-    def __post_init__(self) -> None:
+    @cached_property
+    def memory(self) -> Memory:
+        """The same in local numbers."""
         n = len(self.sets)
         bit = np.zeros((n, n), np.uint64)
         member = np.zeros((n, WIDEST), np.int32)
@@ -34,9 +37,7 @@ class Neighbourhoods:
             for position, j in enumerate(sorted(neighbours)):
                 bit[i, j] = np.uint64(1) << np.uint64(position)
                 member[i, position] = j
-        object.__setattr__(self, "memory", Memory(bit, member))
-
-    memory: Memory = None  # type: ignore[assignment]
+        return Memory(bit, member)
 
     def admit(self, path: tuple[int, ...]) -> bool:
         """Tell whether ``path`` returns to no turbine that it remembers."""

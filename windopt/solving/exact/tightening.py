@@ -127,6 +127,7 @@ class Selection:
         model.changeRowsBounds(len(rows), rows, counts[:, 0].copy(), counts[:, 1].copy())
         model.changeColsBounds(len(dropped), dropped, nothing, nothing)
         clock.check()
+        model.setOptionValue("time_limit", model.getRunTime() + clock.left)
         model.run()
         solved = model.getModelStatus() == highspy.HighsModelStatus.kOptimal
         value = float(model.getInfo().objective_function_value) if solved else np.inf
