@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from formulations.farm_in_wind import FarmInWind
 from formulations.lifted_rows import EPSILON, squares
-from formulations.wake import added_turbulence, axial_induction
+from formulations.wake import K_A, K_B, SIGMA_0, added_turbulence, axial_induction
 
 Floats = NDArray[np.float64]
 Places = NDArray[np.intp]
@@ -26,8 +26,8 @@ CLOSE = 0.1
 NEGLIGIBLE = 1e-4
 """Deficits below this, whatever the yaw, are left out."""
 
-WIDEST = (2.0, 0.22)
-"""Half the width of the widest wake [diameters], beside its rotor and per distance downstream."""
+SIGMAS, MOVED = 4.0, 1.1
+"""How many widths of a wake count, and how far aside it is moved at most [diameters]."""
 
 IN_WAKE = 0.05
 """By how much a point's wind must be slowed to count as in a wake [m/s]."""
@@ -127,12 +127,18 @@ def _candidates(farm: FarmInWind) -> _Pairs:
     dx = x[:, None, :] - x[:, :, None]  # (K, source, target)
     dy = y[:, None, :] - y[:, :, None]
     D = farm.D[None, :, None]
-    near = np.abs(dy) < WIDEST[0] * D + WIDEST[1] * dx + 0.25 * farm.D
+    near = np.abs(dy) < SIGMAS * (SIGMA_0 * D + _growth(farm) * dx) + MOVED * D + 0.25 * farm.D
     at = wind, source, target = np.nonzero((dx > CLOSE) & near)
     D_j = farm.D[source]
     side = 0.25 * farm.D[target] / D_j
     dz = (farm.H[target] - farm.H[source]) / D_j + 4 * farm.rows[:, None] * side
     return _Pairs(source, target, wind, np.array([dx[at] / D_j, dy[at] / D_j, side, *dz]))
+
+
+def _growth(farm: FarmInWind) -> float:
+    """Return by how much the roughest wake grows per distance, two diameters behind a rotor."""
+    added = added_turbulence(2.0, farm.turbulence, 1.0) * 0.5**0.8
+    return K_A * float(np.hypot(farm.turbulence, added)) + K_B
 
 
 def _felt(farm: FarmInWind, gamma: Floats, pairs: _Pairs) -> _Felt:

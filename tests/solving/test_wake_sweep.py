@@ -1,5 +1,7 @@
 """The compiled wakes against those that judge every set-point."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -25,6 +27,12 @@ def test_trials_and_turns_have_the_exact_power(steered, scattered, seed, unlike)
         sweep.turn(i, yaws[0])
         yaw = turned[0]
     assert sweep.power == pytest.approx(farm_power(problem, yaw), rel=1e-9)
+
+
+def test_wide_wakes_in_rough_air_are_not_cut_off(steered, scattered):
+    problem = replace(steered(scattered(20), direction=[10.0, 100.0]), turbulence=0.25)
+    yaw = np.linspace(-0.4, 0.4, 20)
+    assert Sweep(problem, yaw).power == pytest.approx(farm_power(problem, yaw), rel=1e-9)
 
 
 def test_a_capped_farm_counts_what_the_grid_takes(steered, row):

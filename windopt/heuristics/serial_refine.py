@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from windopt.domain.yaw_problem import YawProblem
 from windopt.result import Result, Status
-from windopt.solving.rotor_by_rotor import refine
+from windopt.solving.rotor_by_rotor import UNWAKED, refine
 from windopt.solving.wake_sweep import Sweep
 from windopt.wakes.farm import farm_power
 
@@ -43,6 +43,5 @@ def serial_refine(
     begin = perf_counter()
     yaw = refine(Sweep(problem, problem.facing), deadline=begin + time_limit)
     power = float(farm_power(problem, yaw))
-    source = "every turbine without wakes"
     runtime = perf_counter() - begin
-    return Result(Status.FEASIBLE, yaw, power, problem.bound, runtime, source)
+    return Result(Status.FEASIBLE, yaw, power, problem.bound, runtime, UNWAKED)

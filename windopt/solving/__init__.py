@@ -9,7 +9,8 @@ from windopt.result import Result
 def solve(program: Any, *, time_limit: float = 60.0, **options: Any) -> Result[Any]:
     """Solve a program of :mod:`formulations`, whatever its kind.
 
-    Integer programs carry a HiGHS ``model`` and go to :func:`windopt.solving.integer.solve`; the
+    Integer programs carry a HiGHS ``model`` and go to :func:`windopt.solving.integer.solve`,
+    separable ones carry ``constraints`` and go to :func:`windopt.solving.separable.solve`; the
     others carry a CasADi ``opti`` and go to :func:`windopt.solving.nonlinear.solve`.
 
     Parameters
@@ -32,6 +33,10 @@ def solve(program: Any, *, time_limit: float = 60.0, **options: Any) -> Result[A
         from windopt.solving import integer
 
         result: Result[Any] = integer.solve(program, time_limit=time_limit, **options)
+    elif hasattr(program, "constraints"):
+        from windopt.solving import separable
+
+        result = separable.solve(program, time_limit=time_limit, **options)
     else:
         from windopt.solving import nonlinear
 

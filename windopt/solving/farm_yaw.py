@@ -22,9 +22,10 @@ from formulations.farm_wakes import wakes
 from formulations.power_curve import Curve
 from windopt.domain.yaw_problem import YawProblem
 from windopt.result import Result, Status
-from windopt.solving.rotor_by_rotor import refine
+from windopt.solving.rotor_by_rotor import UNWAKED, refine
 from windopt.solving.separable import prepared, search
 from windopt.solving.wake_sweep import Sweep
+from windopt.solving.yaw_bound import BY_INTERVALS, yaw_bound
 from windopt.wakes.farm import farm_power
 
 Floats = NDArray[np.float64]
@@ -73,18 +74,19 @@ def steer(
     better, OPTIMAL where they reach the bound.
     """
     begin = perf_counter()
-    best = judged(problem, problem.facing)
-    status, reason = Status.FEASIBLE, ""
+    deadline = begin + time_limit
+    best, status = judged(problem, problem.facing), Status.FEASIBLE
+    bound, source = problem.bound, UNWAKED
     try:
-        if best.power < (1 - GAP) * problem.bound:
-            best, status = _searched(problem, best, start, begin + time_limit)
+        if best.power < (1 - GAP) * bound and perf_counter() < deadline:
+            bound, source = yaw_bound(problem), BY_INTERVALS
+        if best.power < (1 - GAP) * bound:
+            best, status = _searched(problem, best, start, deadline)
     except KeyboardInterrupt:
         status = Status.INTERRUPTED
-    if best.power >= (1 - GAP) * problem.bound:
+    reason = AS_GOOD if status is Status.LOCALLY_OPTIMAL else ""
+    if best.power >= (1 - GAP) * bound:
         status = Status.OPTIMAL
-    elif status is Status.LOCALLY_OPTIMAL:
-        reason = AS_GOOD
-    bound, source = problem.bound, "every turbine without wakes"
     return Result(status, best.yaw, best.power, bound, perf_counter() - begin, source, reason)
 
 

@@ -1,7 +1,7 @@
 """Separable programs through Ipopt, with the derivatives they bring along."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from math import inf
 from time import perf_counter
 from typing import Any
@@ -29,6 +29,41 @@ class Search:
 
     program: SeparableProgram
     solver: ca.Function
+
+
+def solve(
+    program: SeparableProgram, *, starts: Sequence[Floats], time_limit: float = 60.0
+) -> Result[Floats]:
+    """Minimise a program from one start or from several.
+
+    Parameters
+    ----------
+    program
+        What is to be minimised.
+    starts
+        Values of its variables to search from; the best solution counts.
+    time_limit
+        Wall-clock limit over all starts [s].
+
+    Returns
+    -------
+    The values of its variables.
+    """
+    begin = perf_counter()
+    best = Result[Floats](Status.NO_SOLUTION, None, inf, -inf, 0.0)
+    for start in starts:
+        left = begin + time_limit - perf_counter()
+        if not left > 0:
+            break
+        found = search(prepared(program, time_limit=left), start)
+        if found.status is Status.NO_SOLUTION:
+            found = replace(found, solution=None, objective=inf)
+        if found.objective < best.objective or best.solution is None:
+            best = found
+        if found.status is Status.INTERRUPTED:
+            best = replace(best, status=Status.INTERRUPTED)
+            break
+    return best.timed(perf_counter() - begin)
 
 
 def prepared(

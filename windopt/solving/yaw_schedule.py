@@ -18,9 +18,10 @@ from windopt.domain.yaw_problem import YawProblem
 from windopt.errors import InvalidInput
 from windopt.result import Result, Status
 from windopt.solving.farm_yaw import FINE, FROM_NEARBY, in_wind
-from windopt.solving.rotor_by_rotor import refine
+from windopt.solving.rotor_by_rotor import UNWAKED, refine
 from windopt.solving.separable import prepared, search
 from windopt.solving.wake_sweep import Sweep
+from windopt.solving.yaw_bound import BY_INTERVALS, yaw_bound
 from windopt.wakes.farm import farm_power
 
 Floats = NDArray[np.float64]
@@ -60,23 +61,36 @@ def steer_all(
     if not window.open:
         reason = "A nacelle cannot follow the wind: its bounds and the limit exclude each other."
         return Result(Status.INFEASIBLE, None, -inf, -inf, perf_counter() - begin, "", reason)
-    yaw = window.nearest(np.array([problem.facing for problem in problems]))
-    best, status = yaw, Status.FEASIBLE
+    best = window.nearest(np.array([problem.facing for problem in problems]))
+    status, source = Status.FEASIBLE, UNWAKED
+    bounds = [problem.bound for problem in problems]
     try:
-        alone = [refine(Sweep(p, p.facing), deadline=deadline) for p in problems]
-        start = window.nearest(np.array(alone))
-        best = max(best, start, key=lambda yaw: mean_power(problems, yaw))
         if perf_counter() < deadline:
-            climb = _climbed(problems, window, start, turn, deadline)
-            best = max(best, window.nearest(climb.found()), key=lambda y: mean_power(problems, y))
-            status = climb.status if climb.status is not Status.NO_SOLUTION else Status.FEASIBLE
-            best = _refined(problems, window, best, deadline)
+            bounds, source = [yaw_bound(problem) for problem in problems], BY_INTERVALS
+            best, status = _searched(problems, window, best, deadline)
     except KeyboardInterrupt:
         status = Status.INTERRUPTED
-    power = mean_power(problems, best)
-    bound = float(np.mean([problem.bound for problem in problems]))
-    source = "every turbine without wakes"
-    return Result(status, best, power, bound, perf_counter() - begin, source)
+    power, runtime = mean_power(problems, best), perf_counter() - begin
+    return Result(status, best, power, float(np.mean(bounds)), runtime, source)
+
+
+def _searched(
+    problems: Sequence[YawProblem], window: "Window", best: Floats, deadline: float
+) -> tuple[Floats, Status]:
+    def better(a: Floats, b: Floats) -> Floats:
+        return max(a, b, key=lambda yaw: mean_power(problems, yaw))
+
+    alone = [refine(Sweep(p, p.facing), deadline=deadline) for p in problems]
+    start = window.nearest(np.array(alone))
+    best = better(best, start)
+    if perf_counter() >= deadline:
+        return best, Status.FEASIBLE
+    climb = _climbed(problems, window, start, deadline)
+    best = better(best, window.nearest(climb.found()))
+    status = climb.status if climb.status is not Status.NO_SOLUTION else Status.FEASIBLE
+    if status is Status.INTERRUPTED:
+        return best, status
+    return _refined(problems, window, best, deadline), status
 
 
 def mean_power(problems: Sequence[YawProblem], yaw: Floats) -> float:
@@ -132,13 +146,13 @@ def _mean_direction(problem: YawProblem) -> float:
 
 
 def _climbed(
-    problems: Sequence[YawProblem], window: Window, start: Floats, turn: float, deadline: float
+    problems: Sequence[YawProblem], window: Window, start: Floats, deadline: float
 ) -> Result[Floats]:
     farm, bounds = in_wind(problems), (window.lower, window.upper)
     found = wakes(farm, start, bounds)
     cap = problems[0].farm_cap
     lift = lifted.farm_yaw(
-        farm, found, bounds=bounds, cap=cap, turns=lifted.Turns(turn, window.shifts)
+        farm, found, bounds=bounds, cap=cap, turns=lifted.Turns(window.turn, window.shifts)
     )
     left = deadline - perf_counter()
     ended = search(prepared(lift.program, time_limit=left, options=FROM_NEARBY), lift.start)
