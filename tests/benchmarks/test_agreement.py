@@ -11,6 +11,6 @@ def test_cases_are_drawn_by_their_seed():
 
 @pytest.mark.slow
 def test_exact_and_time_flow_never_contradict_each_other():
-    found = [verdict for _, verdict in verdicts((0, 1, 3), time_limit=20.0)]
+    found = [verdict for _, verdict in verdicts((0, 1, 92), time_limit=20.0)]
     assert "same optimum" in found
     assert "contradiction" not in found

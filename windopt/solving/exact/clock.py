@@ -98,6 +98,9 @@ class Clock:
         self.check()
         model.setOptionValue("time_limit", model.getRunTime() + self.left)
         model.run()
+        if model.getModelStatus() == highspy.HighsModelStatus.kUnknown:
+            model.clearSolver()  # a basis kept over many rounds may have become useless
+            model.run()
         if model.getModelStatus() != highspy.HighsModelStatus.kOptimal:
             self.check()
             raise RuntimeError(f"A linear program ended as {model.getModelStatus()}.")
