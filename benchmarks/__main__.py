@@ -80,6 +80,8 @@ def _run(chosen: argparse.Namespace) -> None:
             print(f"{name}: nothing in the set {chosen.set}")
             continue
         found = run(cases, lines, jobs=chosen.jobs, scheduler=chosen.scheduler, command=command)
+        if shown := problem(name).show(found):
+            print(shown, end="\n\n")
         failed = sum(record["status"] == "failed" for record in found)
         print(f"{lines}: {len(found)} cases, {failed} failed")
 

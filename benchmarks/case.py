@@ -62,6 +62,8 @@ class Problem:
         Returns what a case's line says beside the case itself.
     warm_up
         Runs a method once on something tiny, so that no case pays for what is compiled.
+    show
+        Returns what a run prints of its lines, beside how many there are.
     """
 
     instances: Callable[[str], Sequence[str]]
@@ -69,3 +71,4 @@ class Problem:
     time_limits: Mapping[str, float]
     measure: Callable[[Case], Record]
     warm_up: Callable[[str], None] = lambda method: None
+    show: Callable[[Sequence[Record]], str] = lambda records: ""

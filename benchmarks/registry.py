@@ -9,6 +9,7 @@ PROBLEMS = {
     "yaw": "benchmarks.yaw",
     "forecast": "benchmarks.forecast_cases",
     "edge": "benchmarks.edge_cases",
+    "paper": "benchmarks.paper",
 }
 """Module of each problem, whose ``PROBLEM`` describes it."""
 
