@@ -72,8 +72,8 @@ def derivatives(equations: ca.Function) -> Derivatives:
     weights = ca.SX.sym("weights", terms.shape[0])
     J = ca.jacobian(terms, v)
     H = ca.triu(ca.hessian(ca.dot(weights, terms), v)[0])
-    first = ca.Function("first", [v, p], [J.nz[:]])
-    second = ca.Function("second", [v, p, weights], [H.nz[:]])
+    first = ca.Function("first", [v, p], [ca.cse(J.nz[:])])
+    second = ca.Function("second", [v, p, weights], [ca.cse(H.nz[:])])
     return Derivatives(first, _places(J), second, _places(H))
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from windopt.solving.compiled_wakes import deflection, profile, shed
+from windopt.solving.compiled_wakes import section, shed
 from windopt.solving.farm_yaw import steer
 from windopt.solving.wake_intervals import Box, piece, sideways, spread, upwards
 from windopt.solving.yaw_bound import yaw_bound
@@ -66,10 +66,9 @@ def test_intervals_hold_every_wake_within_them(seed):
         i, c = rng.integers(0, 3, 2)
         box = piece(whole, i, c)
         g, t, r = (rng.uniform(box[k], box[k + 1]) for k in (0, 2, 4))
-        wake = shed(g, t * np.cos(g), r)
-        centre, sigma_y, sigma_z = profile(wake, dx)
-        shape = ((dy - deflection(wake, dx)) / sigma_y) ** 2 + (dz / sigma_z) ** 2
-        d = centre * np.exp(-shape / 2)
+        wake = section(shed(g, t * np.cos(g), r), dx)
+        shape = ((dy - wake.delta) / wake.sigma_y) ** 2 + (dz / wake.sigma_z) ** 2
+        d = wake.centre * np.exp(-shape / 2)
         s = spread(dx, box)
         (low, high), (low_up, high_up) = sideways(s, dy), upwards(s, dz)
         assert low * low_up * (1 - 1e-9) <= d <= high * high_up * (1 + 1e-9)

@@ -70,6 +70,15 @@ class Shed(NamedTuple):
     bend: float
 
 
+class Section(NamedTuple):
+    """A wake at some distance; lengths in diameters of its rotor."""
+
+    centre: float  # deficit in its centre
+    sigma_y: float  # widths
+    sigma_z: float
+    delta: float  # how far aside its centre is
+
+
 @compiled
 def shed(gamma: float, C_T: float, turbulence: float) -> Shed:
     """Return the wake of a rotor; see :mod:`windopt.wakes.gaussian` for the equations."""
@@ -100,8 +109,8 @@ def deflection(w: Shed, dx: float) -> float:
 
 
 @compiled
-def profile(w: Shed, dx: float) -> tuple[float, float, float]:
-    """Return the deficit in the wake's centre, and its widths [diameters]."""
+def section(w: Shed, dx: float) -> Section:
+    """Return the cross-section of a wake at a distance [diameters]."""
     sigma_0 = 8**-0.5
     if dx < w.x_0:
         ramp = dx / w.x_0
@@ -111,39 +120,40 @@ def profile(w: Shed, dx: float) -> tuple[float, float, float]:
         growth = w.k * (dx - w.x_0)
         sigma_y, sigma_z = growth + sigma_0 * w.cos, growth + sigma_0
     free = 1 - w.C_T * w.cos / (8 * sigma_y * sigma_z)
-    return 1 - np.sqrt(min(max(free, 0.0), 1.0)), sigma_y, sigma_z
+    centre = 1 - np.sqrt(min(max(free, 0.0), 1.0))
+    return Section(centre, sigma_y, sigma_z, deflection(w, dx))
 
 
 @compiled
-def slow(row: Row, i: int, j: int, c: int, w: Shed, squares: Floats) -> int:
+def fade(row: Row, i: int, j: int, sigma_z: float, left: Floats) -> None:
+    """Find how much of a wake's deficit is left at each row of points."""
+    for r in range(3):
+        up = (row.H[j] - row.H[i] + 0.25 * (r - 1) * row.D[j]) / (row.D[i] * sigma_z)
+        left[r] = np.exp(-0.5 * up * up)
+
+
+@compiled
+def slow(row: Row, i: int, j: int, c: int, s: Section, left: Floats, squares: Floats) -> int:
     """Find by how much a wake slows a column of points; return how many of them noticeably."""
-    D = row.D[i]
-    dx = (row.x[j] - row.x[i]) / D
-    dy = (row.y[j] - row.y[i] + 0.25 * (c - 1) * row.D[j]) / D
-    centre, sigma_y, sigma_z = profile(w, dx)
-    aside = (dy - deflection(w, dx)) / sigma_y
-    lateral = centre * np.exp(-0.5 * aside * aside)
+    dy = (row.y[j] - row.y[i] + 0.25 * (c - 1) * row.D[j]) / row.D[i]
+    aside = (dy - s.delta) / s.sigma_y
+    lateral = s.centre * np.exp(-0.5 * aside * aside)
     noticed = 0
     for r in range(3):
-        up = (row.H[j] - row.H[i] + 0.25 * (r - 1) * row.D[j]) / (D * sigma_z)
-        loss = lateral * np.exp(-0.5 * up * up) * row.u0[j, r]
+        loss = lateral * left[r] * row.u0[j, r]
         squares[3 * c + r] = loss * loss
         noticed += loss > 0.05
     return noticed
 
 
 @compiled
-def roughen(
-    row: Row, i: int, j: int, gamma: float, C_T: float, noticed: int, raised: Floats
-) -> None:
-    """Find the turbulence intensity to which a wake raises each column of points."""
+def roughen(row: Row, i: int, j: int, added: float, raised: Floats) -> None:
+    """Find the turbulence intensity to which ``added`` raises each column of points."""
     raised[:] = row.ambient
     dx = (row.x[j] - row.x[i]) / row.D[i]
-    if noticed == 0 or dx > 15.0:
+    if added == 0 or dx > 15.0:
         return
-    cos = np.cos(gamma)
-    a = 0.5 / cos * (1 - np.sqrt(1 - C_T * cos))
-    added = noticed / 9 * (0.5 * a**0.8 * row.ambient**0.1 * dx**-0.32)
+    added *= dx**-0.32
     for c in range(3):
         dy = row.y[j] - row.y[i] + 0.25 * (c - 1) * row.D[j]
         if abs(dy) < 2 * row.D[i]:
@@ -185,15 +195,34 @@ def pass_wake(
 ) -> None:
     """Find the wake of turbine i, and mark the turbines for which it is not what it was."""
     columns = (shed(gamma, C_T, own[0]), shed(gamma, C_T, own[1]), shed(gamma, C_T, own[2]))
+    alike = own[0] == own[1] == own[2]
+    cos = np.cos(gamma)
+    a = 0.5 / cos * (1 - np.sqrt(1 - C_T * cos))
+    strength = 0.5 * a**0.8 * row.ambient**0.1
+    left = np.empty(3)
     for e in range(row.first[i], row.first[i + 1]):
         j = row.target[e]
-        noticed = 0
-        for c in range(3):
-            noticed += slow(row, i, j, c, columns[c], new.squares[e])
-        roughen(row, i, j, gamma, C_T, noticed, new.raised[e])
-        if not new.changed[j]:
-            other = np.abs(new.squares[e] - kept.squares[e]).max() > UNCHANGED
-            new.changed[j] = other or (new.raised[e] != kept.raised[e]).any()
+        dx = (row.x[j] - row.x[i]) / row.D[i]
+        s = section(columns[0], dx)
+        fade(row, i, j, s.sigma_z, left)
+        noticed = slow(row, i, j, 0, s, left, new.squares[e])
+        for c in (1, 2):
+            if not alike:
+                s = section(columns[c], dx)
+                fade(row, i, j, s.sigma_z, left)
+            noticed += slow(row, i, j, c, s, left, new.squares[e])
+        roughen(row, i, j, noticed / 9 * strength, new.raised[e])
+        new.changed[j] = new.changed[j] or differs(kept, new, e)
+
+
+@compiled
+def differs(kept: Kept, new: Kept, e: int) -> bool:
+    """Whether a pair's wake is not what it was."""
+    for p in range(9):
+        if abs(new.squares[e, p] - kept.squares[e, p]) > UNCHANGED:
+            return True
+    now, before = new.raised[e], kept.raised[e]
+    return bool(now[0] != before[0] or now[1] != before[1] or now[2] != before[2])
 
 
 @compiled
@@ -213,8 +242,10 @@ def passed(row: Row, tables: Tables, begin: int, gamma: Floats, kept: Kept, new:
         for p in range(row.first_in[i], row.first_in[i + 1]):
             e = row.into[p]
             wake = new if new.changed[row.source[e]] else kept
-            slowed += wake.squares[e]
-            own = np.maximum(own, wake.raised[e])
+            for q in range(9):
+                slowed[q] += wake.squares[e, q]
+            for c in range(3):
+                own[c] = max(own[c], wake.raised[e, c])
         new.powers[i], C_T = operate(row, tables, i, gamma[i], slowed)
         more += new.powers[i] - kept.powers[i]
         pass_wake(row, i, gamma[i], C_T, own, kept, new)
