@@ -8,19 +8,24 @@ rotor, a share :math:`c_p` of it, and :math:`E_k` the farm's power:
 .. math::
 
     \max \quad & \sum_k w_k E_k                                                       \tag{1} \\
-    \text{s.t.} \quad & E_k \le \sum_i P_i\bigl(u_k U_{ik} \cos^{p/3} \gamma_{it}\bigr),
+    \text{s.t.} \quad & E_k \le \sum_i r_{ik} P_i\bigl(u_k U_{ik} \cos^{p/3} \gamma_{it}\bigr),
         \quad E_k \le E^{max}                                                         \tag{2} \\
       & U_{ik}^3 = \sum_p c_p (1 - W_{pik})^3                                         \tag{3} \\
       & W_{pik}^2 + 2 \varepsilon W_{pik} = \sum_j d_{pji}^2(\gamma_{jt}, C_{jk}, I_{jk}) \tag{4} \\
-      & C_{ik} = C_T(u_k U_{ik}) \cos\gamma_{it}                                      \tag{5} \\
+      & C_{ik} = r_{ik} \, C_T(u_k U_{ik}) \cos\gamma_{it}                            \tag{5} \\
       & I_{ik}^2 = I_\infty^2 + \kappa_{ik}^2 \, a(\gamma_{jt}, C_{jk})^{1.6},
         \quad j = j(i, k)                                                             \tag{6} \\
       & \underline\gamma_i \le \gamma_{it} \le \overline\gamma_i                      \tag{7} \\
-      & |\Delta\theta_t - \gamma_{it} + \gamma_{i,t-1}| \le \dot\gamma                    \tag{8}
+      & |\Delta\theta_t - \gamma_{it} + \gamma_{i,t-1}| \le \dot\gamma                    \tag{8} \\
+      & \underline r \le r_{ik} \le 1                                                \tag{9}
 
 One step with one wind is a set-point; one step with several winds is a robust set-point, the best
 on average over a spread of directions and speeds; several steps are a schedule, in which the wind
 turns by :math:`\Delta\theta_t` and a nacelle by at most :math:`\dot\gamma`.
+
+A turbine may be derated to a share :math:`r_{ik}` of its power, and its thrust falls by as much;
+unless that is asked for, the share is 1, and a farm above its cap is curtailed without regard to
+its wakes. With derating (2) is an equality, so that the set-points add up to what the grid takes.
 
 The wakes come one after the other, so U, W, C and I are functions of the yaws. They are variables
 all the same: eliminated, they would couple every turbine with all those upstream, whereas here each
@@ -69,6 +74,8 @@ class FarmYaw:
         Rows and bounds; the objective is minus (1), as a fraction of ``scale``.
     gamma
         Places of the misalignments among its variables, shape ``(T, n)``.
+    r
+        Places of the shares of power, shape ``(K, n)``.
     start
         A point at which all rows but those of (8) hold, to within their rounded corners.
     scale
@@ -77,6 +84,7 @@ class FarmYaw:
 
     program: SeparableProgram
     gamma: Places
+    r: Places
     start: Floats
     scale: float
 
@@ -88,8 +96,9 @@ def farm_yaw(
     bounds: tuple[Floats, Floats],
     cap: float = inf,
     turns: Turns | None = None,
+    least: float = 1.0,
 ) -> FarmYaw:
-    r"""Build the program (1)-(8).
+    r"""Build the program (1)-(9).
 
     Parameters
     ----------
@@ -103,6 +112,8 @@ def farm_yaw(
         The most that the farm may deliver in any wind [W].
     turns
         How far nacelles may turn between the steps; unless given, as far as they like.
+    least
+        The share of its power to which a turbine may be derated [-].
     """
     scale = farm.free_power() or 1.0
     x = _variables(farm, wakes)
@@ -121,7 +132,8 @@ def farm_yaw(
     ]
     m = next(row)
     lower_g, upper_g = np.zeros(m), np.zeros(m)
-    lower_g[:K] = -inf
+    if least == 1.0:
+        lower_g[:K] = -inf
     if turns is not None:
         constraints += _turns(x, turns, m)  # (8)
         most = np.full(x.gamma[1:].size, turns.most)
@@ -129,8 +141,9 @@ def farm_yaw(
 
     lower_x, upper_x = _bounds(farm, wakes, x, cap / scale)
     lower_x[x.gamma], upper_x[x.gamma] = bounds  # (7)
+    lower_x[x.r], upper_x[x.r] = least, 1.0  # (9)
     program = SeparableProgram(objective, constraints, lower_x, upper_x, lower_g, upper_g)
-    return FarmYaw(program, x.gamma, _start(wakes, x, cap, scale), scale)
+    return FarmYaw(program, x.gamma, x.r, _start(wakes, x, cap, scale), scale)
 
 
 class _Variables(NamedTuple):
@@ -140,6 +153,7 @@ class _Variables(NamedTuple):
     C: Places  # (K, n)
     I: Places  # (K, n)  # noqa: E741
     U: Places  # (K, n)
+    r: Places  # (K, n)
     E: Places  # (K,)
     W: Places  # (P, K, n)
 
@@ -153,13 +167,13 @@ class _Variables(NamedTuple):
 def _variables(farm: FarmInWind, wakes: Wakes) -> _Variables:
     P, K, n = wakes.W.shape
     place = count()
-    shapes = wakes.gamma.shape, (K, n), (K, n), (K, n), (K,)
-    gamma, C, I, U, E = (_numbers(place, shape) for shape in shapes)  # noqa: E741
+    shapes = wakes.gamma.shape, (K, n), (K, n), (K, n), (K, n), (K,)
+    gamma, C, I, U, r, E = (_numbers(place, shape) for shape in shapes)  # noqa: E741
     W = np.full((P, K, n), -1)
     waked = np.zeros((K, n), dtype=bool)
     waked[wakes.wind, wakes.target] = True
     W[:, waked] = _numbers(place, (P, int(waked.sum())))
-    return _Variables(gamma, C, I, U, E, W)
+    return _Variables(gamma, C, I, U, r, E, W)
 
 
 def _numbers(count: Iterator[int], shape: tuple[int, ...]) -> Places:
@@ -172,7 +186,7 @@ def _powers(farm: FarmInWind, x: _Variables, row: Iterator[int], scale: float) -
     yield Family(rows.itself(), x.E[None], np.ones((1, len(x.E))), delivered[None])
     for c, k, i in _kinds(farm):
         power = rows.power(farm.curve(c), farm.air_density, scale)
-        v = np.array([x.gamma[farm.steps[k], i], x.U[k, i]])
+        v = np.array([x.gamma[farm.steps[k], i], x.U[k, i], x.r[k, i]])
         yield Family(power, v, farm.speeds[k][None], delivered[k][None])
 
 
@@ -196,7 +210,7 @@ def _deficits(
 
 def _thrusts(farm: FarmInWind, x: _Variables, row: Iterator[int]) -> Iterator[Family]:
     for c, k, i in _kinds(farm):
-        v = np.array([x.gamma[farm.steps[k], i], x.U[k, i], x.C[k, i]])
+        v = np.array([x.gamma[farm.steps[k], i], x.U[k, i], x.r[k, i], x.C[k, i]])
         yield Family(
             rows.thrust(farm.curve(c)), v, farm.speeds[k][None], _numbers(row, (1, len(k)))
         )
@@ -244,6 +258,7 @@ def _bounds(farm: FarmInWind, wakes: Wakes, x: _Variables, cap: float) -> tuple[
 def _start(wakes: Wakes, x: _Variables, cap: float, scale: float) -> Floats:
     start = np.empty(1 + max(x.E.max(), x.W.max()))
     start[x.gamma], start[x.C], start[x.I], start[x.U] = wakes.gamma, wakes.C_T, wakes.I, wakes.U
+    start[x.r] = 1.0
     start[x.E] = np.minimum(wakes.powers.sum(axis=1), cap) / scale
     start[x.W[:, x.waked]] = wakes.W[:, x.waked]
     return start

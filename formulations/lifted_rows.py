@@ -18,12 +18,12 @@ EPSILON = 5e-5
 @lru_cache(maxsize=64)
 def power(curve: Curve, air_density: float, scale: float) -> ca.Function:
     """Return a turbine's part in (2), as a fraction of ``scale``."""
-    v, u = ca.SX.sym("v", 2), ca.SX.sym("u")
-    gamma, U = ca.vertsplit(v)
+    v, u = ca.SX.sym("v", 3), ca.SX.sym("u")
+    gamma, U, r = ca.vertsplit(v)
     density = (air_density / curve.air_density) ** (1 / 3)
     effective = density * u * U * ca.cos(gamma) ** (curve.yaw_exponent / 3)
     P = linear_pieces(effective, curve.speeds, [p / scale for p in curve.powers], CORNER)
-    return ca.Function("power", [v, u], [-P])
+    return ca.Function("power", [v, u], [-r * P])
 
 
 @cache
@@ -64,10 +64,10 @@ def taken(rows: int) -> ca.Function:
 @lru_cache(maxsize=64)
 def thrust(curve: Curve) -> ca.Function:
     """Return row (5)."""
-    v, u = ca.SX.sym("v", 3), ca.SX.sym("u")
-    gamma, U, C = ca.vertsplit(v)
+    v, u = ca.SX.sym("v", 4), ca.SX.sym("u")
+    gamma, U, r, C = ca.vertsplit(v)
     C_T = linear_pieces(u * U, curve.speeds, curve.thrusts, CORNER)
-    return ca.Function("thrust", [v, u], [C - C_T * ca.cos(gamma)])
+    return ca.Function("thrust", [v, u], [C - r * C_T * ca.cos(gamma)])
 
 
 @cache

@@ -95,6 +95,23 @@ def test_the_rated_power_and_the_cap_are_kept(steered, row):
     assert capped == pytest.approx(0.8 * free, rel=1e-6)
 
 
+def test_derated_turbines_add_up_to_the_cap(steered, row):
+    problem = steered(row(3), speed=10.0, direction=275.0)
+    _, free = optimum(problem, 0.1)
+    lift = built(problem, np.full(3, 0.1), cap=0.7 * free, least=0.2)
+    found = search(prepared(lift.program, options=FROM_AFAR), lift.start)
+    r = found.found()[lift.r]
+    assert -found.objective * lift.scale == pytest.approx(0.7 * free, rel=1e-6)
+    assert (r >= 0.2 - 1e-9).all()
+    assert r.min() < 0.95
+
+
+def test_room_to_derate_never_delivers_less(steered, row):
+    problem = steered(row(4), direction=270.0)
+    powers = [optimum(problem, 0.1, least=least)[1] for least in (1.0, 0.8)]
+    assert powers[1] >= powers[0] * (1 - 1e-5)
+
+
 def test_steps_turn_only_as_far_as_allowed(steered, row):
     problems = [steered(row(3), direction=direction) for direction in (268.0, 270.0, 275.0)]
     farm, bounds = in_wind(problems), (problems[0].lower, problems[0].upper)
