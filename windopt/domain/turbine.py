@@ -50,7 +50,7 @@ class TurbineType:
         Name of the C_p model, one of ``formulations.rotor.MODELS``.
     curve
         Its power and thrust over the wind speed; ``None`` where nothing is published, and then
-        they follow from the C_p model, see :meth:`PowerCurve.stand_in`.
+        they follow from the C_p model: :meth:`windopt.domain.power_curve.PowerCurve.stand_in`.
     """
 
     name: str
