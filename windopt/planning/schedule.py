@@ -111,7 +111,8 @@ def plan_schedule(
         found = search(reached, time_limit=left / (len(forecast) - step), seed=seed)
         if method != "algorithm-1":
             found = _worth_it(reached, present, found, pace.threshold)
-        result = judged_plan(farm, wind, problem, exposed, found)
+        # What is proved within reach of the nacelles is no bound on the farm's set-points.
+        result = judged_plan(farm, wind, problem, exposed, replace(found, bound=problem.bound))
         results.append(replace(result, runtime=perf_counter() - begin))
         nacelle = [point.nacelle for point in result.found().set_points]
     return tuple(results)
