@@ -43,7 +43,13 @@ GAP = 1e-9
 """Relative distance to its bound at which a set-point counts as proved optimal."""
 
 FROM_AFAR: Mapping[str, float] = {"tol": 1e-6, "max_iter": 100}
-FROM_NEARBY = {**FROM_AFAR, "mu_init": 1e-4, "bound_push": 1e-4, "bound_frac": 1e-4}
+FROM_NEARBY = {
+    **FROM_AFAR,
+    "max_iter": 50,
+    "mu_init": 1e-4,
+    "bound_push": 1e-4,
+    "bound_frac": 1e-4,
+}
 """Options of Ipopt: a good start is not to be pushed away from its bounds."""
 
 AS_GOOD = (
