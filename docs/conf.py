@@ -74,7 +74,7 @@ html_show_sourcelink = False
 nitpick_ignore_regex = [
     (r"py:class", r"(collections|pathlib)\..*"),  # standard library
     (r"py:class", r"(casadi|cvxpy|highspy|numpy|scipy|torch)\..*"),
-    (r"py:class", r"Axes"),  # matplotlib's, imported for type checkers only
+    (r"py:class", r"Axes|DataFrame"),  # of matplotlib and pandas, imported for type checkers only
     (r"py:class", r"windopt\.result\.(Solution|Other)"),
     (r"py:class", r"windopt\.solving\.exact\.compiled\.Function"),
 ]

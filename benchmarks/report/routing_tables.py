@@ -14,6 +14,9 @@ Instance = tuple[str, str]
 LP = "-lp"
 """How the names of methods end that solve a linear relaxation and plan nothing."""
 
+COLUMNS = "exact"
+"""The method whose linear relaxation has a column for each flight."""
+
 PROVED = 1e-6
 """Relative gap below which bound and plan are one."""
 
@@ -146,6 +149,10 @@ def relaxations(records: Sequence[Record]) -> Rows:
         best = known[instance(record)].objective
         if record["method"] in lps and isfinite(best):
             cells[instance(record)][record["method"]] = f"{number(record['bound'], 0) / best:.1%}"
+        elif record.get("lp_bound") and record["method"] == COLUMNS and isfinite(best):
+            cells[instance(record)][COLUMNS] = f"{record['lp_bound'] / best:.1%}"
+    if any(COLUMNS in row for row in cells.values()):
+        lps[COLUMNS] = None
     rows = [["instance", *(name.removesuffix(LP) for name in lps)]]
     return rows + [[name[0], *(row.get(lp, "-") for lp in lps)] for name, row in cells.items()]
 

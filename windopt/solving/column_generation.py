@@ -10,12 +10,13 @@ one to a module.
 """
 
 from collections.abc import Callable
+from dataclasses import replace
 from itertools import count
 from math import inf
 
 from windopt.domain.routing import Route, RoutingInstance
 from windopt.errors import InvalidInput
-from windopt.result import Result, Status
+from windopt.result import Effort, Result, Status
 from windopt.solving.exact.clock import Clock, OutOfTime
 from windopt.solving.exact.closing import close
 from windopt.solving.exact.local_search import improve
@@ -102,6 +103,7 @@ def _prove(search: Search, memory: float, seed: int) -> None:
     """Raise the bound to the plan, or find a better plan."""
     relaxation = Relaxation(search, memory, search.counts)
     relaxation.begin()
+    search.lp_bound = search.bound
     while relaxation.grow_neighbourhoods() or relaxation.round_flights():
         pass
     rounded = relaxation.rounded()
@@ -139,4 +141,6 @@ def _result(search: Search, stopped: Status) -> Result[tuple[Route, ...]]:
     status = Status.OPTIMAL if search.closed else stopped
     objective = search.objective * search.unit
     reason = "Not proved optimal: time or memory ran out." if status is Status.FEASIBLE else ""
-    return Result(status, search.routes(), objective, bound, runtime, SOURCE, reason)
+    effort = Effort(lp_bound=search.lp_bound * search.unit, nodes=search.nodes)
+    found = Result(status, search.routes(), objective, bound, runtime, SOURCE, reason)
+    return replace(found, effort=effort)

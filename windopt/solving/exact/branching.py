@@ -47,6 +47,7 @@ def branch(root: Tightened, counts: Floats, target: float, search: Search) -> No
     proved = target
     while nodes:
         value, _, node, counts = heappop(nodes)
+        search.nodes += 1
         others = min([proved, *(open_node[0] for open_node in nodes)])
 
         def prove(bound: float, others: float = others) -> None:

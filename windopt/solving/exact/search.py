@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from logging import getLogger
-from math import inf
+from math import inf, nan
 
 import numpy as np
 from numpy.typing import NDArray
@@ -52,6 +52,8 @@ class Search:
         self.flights: tuple[Flight, ...] = ()
         self.objective = inf
         self.bound = _arrivals(self.networks, self.prize)
+        self.lp_bound = nan  # of the first relaxation
+        self.nodes = 0
         self._gap = gap
         self._progress = progress
         self._merge = all(_obeys_triangle(network) for network in self.networks)
