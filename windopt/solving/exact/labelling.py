@@ -37,7 +37,7 @@ class Waiting(NamedTuple):
     Attributes
     ----------
     T, C, V, S, parent
-        As of :class:`Labels`.
+        As of :class:`~windopt.solving.exact.labels.Labels`.
     checked
         Last layer that a label was compared with.
     following, head
@@ -238,7 +238,7 @@ def labels(
 
     Returns
     -------
-    The :class:`Labels`, and whether they are complete.
+    The :class:`~windopt.solving.exact.labels.Labels`, and whether they are complete.
     """
     n, words = prices.memory.shape
     capacity = max(capacity, n)

@@ -86,7 +86,7 @@ def copy(source: Tours, target: Tours) -> None:
 
 @compiled
 def detour(legs: Legs, d: int, a: int, i: int, b: int) -> float:
-    """Return the time that visiting i between a and b adds; the station is :data:`NOWHERE`."""
+    """Return the time that visiting i between a and b adds; the station is ``NOWHERE``."""
     arrive = legs.out[d, i] if a < 0 else legs.between[d, a, i]
     leave = legs.back[d, i] if b < 0 else legs.between[d, i, b]
     direct = 0.0
