@@ -129,6 +129,7 @@ def _narrow(relaxation: Relaxation, gap: float) -> bool:
     while relaxation.gap > gap:
         if not relaxation.cut():
             return False
+        relaxation.round_flights()
     return True
 
 
