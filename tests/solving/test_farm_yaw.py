@@ -6,6 +6,7 @@ import pytest
 from windopt.domain.yaw_problem import YawProblem
 from windopt.heuristics.serial_refine import serial_refine
 from windopt.result import Status
+from windopt.solving import farm_yaw
 from windopt.solving.farm_yaw import steer
 from windopt.wakes.farm import farm_power, turbine_powers
 
@@ -69,7 +70,22 @@ def test_no_power_is_no_reason_to_turn(steered, row, speed):
 def test_no_time_leaves_the_rotors_facing_the_wind(steered, row):
     result = steer(steered(row(3)), time_limit=0.0)
     assert result.status is Status.FEASIBLE
+    assert "The time limit was reached." in result.reason
     assert (result.found() == 0).all()
+
+
+def test_an_ipopt_that_does_not_converge_is_said(steered, row, monkeypatch):
+    monkeypatch.setattr(farm_yaw, "FROM_NEARBY", {"max_iter": 0})
+    monkeypatch.setattr(farm_yaw, "FROM_AFAR", {"max_iter": 0})
+    problem = steered(row(3), direction=272.0)
+    result = steer(problem)
+    assert result.status is Status.FEASIBLE
+    assert result.reason.startswith("Ipopt did not converge: The limit of iterations was reached.")
+    assert result.objective >= serial_refine(problem).objective
+
+
+def test_a_proof_needs_no_reason(steered, row):
+    assert steer(steered(row(3), farm_cap=2e6)).reason == ""
 
 
 def test_a_warm_start_is_never_lost(steered, scattered):

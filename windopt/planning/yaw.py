@@ -144,12 +144,12 @@ def judged_plan(
     plan = _plan(farm, wind, problem, steering, gamma)
     bound = min(problem.bound, found.bound) if found.bound >= plan.power else problem.bound
     source = found.bound_source if bound < problem.bound else BOUND_SOURCE
-    status = found.status
+    status, reason = found.status, found.reason
     if status in (Status.NO_SOLUTION, Status.INFEASIBLE):
         status = Status.FEASIBLE
     if bound - plan.power <= GAP * bound and status is not Status.INTERRUPTED:
-        status = Status.OPTIMAL
-    result = Result(status, plan, plan.power, bound, found.runtime, source, found.reason)
+        status, reason = Status.OPTIMAL, ""
+    result = Result(status, plan, plan.power, bound, found.runtime, source, reason)
     report = check(result)
     if not report.passed:
         raise FailedCheck(report.violations)

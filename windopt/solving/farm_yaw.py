@@ -55,6 +55,11 @@ FROM_NEARBY = {
 AS_GOOD = (
     "By the exact wakes no worse than a point where the program's first-order conditions hold."
 )
+NOT_CONVERGED = (
+    "Ipopt did not converge: {} Of where it ended and what was found rotor by rotor, these "
+    "set-points deliver the most by the exact wakes."
+)
+"""Reasons, by what the status does not say."""
 
 
 def steer(
@@ -81,18 +86,17 @@ def steer(
     """
     begin = perf_counter()
     deadline = begin + time_limit
-    best, status = judged(problem, problem.facing), Status.FEASIBLE
+    best, status, reason = judged(problem, problem.facing), Status.FEASIBLE, ""
     bound, source = problem.bound, UNWAKED
     try:
         if best.power < (1 - GAP) * bound and perf_counter() < deadline:
             bound, source = yaw_bound(problem), BY_INTERVALS
         if best.power < (1 - GAP) * bound:
-            best, status = _searched(problem, best, start, deadline)
+            best, status, reason = _searched(problem, best, start, deadline)
     except KeyboardInterrupt:
-        status = Status.INTERRUPTED
-    reason = AS_GOOD if status is Status.LOCALLY_OPTIMAL else ""
+        status, reason = Status.INTERRUPTED, ""
     if best.power >= (1 - GAP) * bound:
-        status = Status.OPTIMAL
+        status, reason = Status.OPTIMAL, ""
     return Result(status, best.yaw, best.power, bound, perf_counter() - begin, source, reason)
 
 
@@ -110,18 +114,22 @@ def judged(problem: YawProblem, yaw: Floats) -> SetPoint:
 
 def _searched(
     problem: YawProblem, best: SetPoint, start: Floats | None, deadline: float
-) -> tuple[SetPoint, Status]:
-    status = Status.FEASIBLE
+) -> tuple[SetPoint, Status, str]:
+    status, reason = Status.FEASIBLE, ""
     for yaw, options in _starts(problem, start, deadline):
         best = max(best, judged(problem, yaw), key=_power)
         climb = climbed(problem, yaw, options, deadline)
         best = max(best, judged(problem, climb.found()), key=_power)
-        if climb.status in (Status.LOCALLY_OPTIMAL, Status.INTERRUPTED):
-            status = climb.status
-        if status is Status.INTERRUPTED or perf_counter() >= deadline:
-            return best, status
+        if climb.status is Status.INTERRUPTED:
+            return best, Status.INTERRUPTED, ""
+        if climb.status is Status.LOCALLY_OPTIMAL:
+            status, reason = climb.status, AS_GOOD
+        elif status is Status.FEASIBLE:
+            reason = NOT_CONVERGED.format(climb.reason)
+        if perf_counter() >= deadline:
+            return best, status, reason
     fine = refine(Sweep(problem, best.yaw), around=FINE, passes=(4, 4), deadline=deadline)
-    return max(best, judged(problem, fine), key=_power), status
+    return max(best, judged(problem, fine), key=_power), status, reason
 
 
 def _starts(
