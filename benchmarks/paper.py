@@ -65,7 +65,8 @@ def _flown(where: str, planner: str, case: Case) -> Record:
 
 def show(records: Sequence[Record]) -> str:
     """Return the four tables as text, ours beside the paper's."""
-    from benchmarks.report.paper_tables import TABLES, as_text
+    from benchmarks.report.columns import as_text
+    from benchmarks.report.paper_tables import TABLES
 
     return "\n\n".join(as_text(title, make(records)) for title, make in TABLES.items())
 

@@ -2,7 +2,8 @@
 
 Every set-point is judged by FLORIS itself. Methods run in one process on one processor, with what
 does not depend on the farm compiled before: numba's wakes, and CasADi's derivatives of a row.
-``python -m benchmarks run yaw --set full`` measures all instances.
+``python -m benchmarks run yaw --set full`` measures all instances and shows the tables of
+:mod:`benchmarks.report.yaw_tables`.
 """
 
 import resource
@@ -105,10 +106,19 @@ def warm_up(name: str) -> None:
     measure(Case("yaw", "row3-5D-272", name, 60.0))
 
 
+def show(records: Sequence[Record]) -> str:
+    """Return windopt's gains and times beside FLORIS's, as text."""
+    from benchmarks.report.columns import as_text
+    from benchmarks.report.yaw_tables import tables
+
+    return "\n\n".join(as_text(title, rows) for title, rows in tables(records).items())
+
+
 PROBLEM = Problem(
     instances=INSTANCES.__getitem__,
     methods=lambda chosen: tuple(METHODS),
     time_limits=TIME_LIMITS,
     measure=measure,
     warm_up=warm_up,
+    show=show,
 )

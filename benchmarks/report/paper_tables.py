@@ -114,13 +114,3 @@ TABLES: Mapping[str, Callable[[Sequence[Record]], Rows]] = {
     "Routing: seven turbines, 10 m/s from the east": routing,
 }
 """The four tables by title."""
-
-
-def as_text(title: str, rows: Rows) -> str:
-    """Return a table in columns."""
-    widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
-    lines = (
-        "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip()
-        for row in rows
-    )
-    return "\n".join([title, "-" * len(title), *lines])

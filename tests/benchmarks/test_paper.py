@@ -5,7 +5,8 @@ import pytest
 from benchmarks.case import Case
 from benchmarks.closed_loop import loop
 from benchmarks.paper import LIMITS, instances, measure
-from benchmarks.report.paper_tables import PAPER_ROUTING, TABLES, as_text
+from benchmarks.report.columns import as_text
+from benchmarks.report.paper_tables import PAPER_ROUTING, TABLES
 
 
 def row(name):

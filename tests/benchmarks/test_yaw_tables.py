@@ -1,0 +1,130 @@
+"""Wake steering beside FLORIS: gains in points, times as ratios, failures in plain sight."""
+
+import pytest
+
+from benchmarks.records import appended
+from benchmarks.report.pages import write_pages
+from benchmarks.report.yaw_tables import (
+    beside_floris,
+    by_size,
+    not_measured,
+    summary,
+    tables,
+    where_floris_gains_more,
+)
+from benchmarks.yaw import INSTANCES, METHODS, show
+
+
+def line(instance, method, gain, cpu, *, bound=None, status="feasible"):
+    return {
+        "problem": "yaw",
+        "instance": instance,
+        "method": method,
+        "time_limit": 60.0,
+        "seed": 0,
+        "status": status,
+        "turbines": 25,
+        "winds": 1,
+        "power": 4e7 * (1 + gain),
+        "baseline": 4e7,
+        "gain": gain,
+        "bound": bound,
+        "cpu": cpu,
+        "commit": "abc",
+        "machine": {"processor": "one", "processors": 1, "memory_gb": 1},
+        "versions": {"python": "3"},
+        "command": "python -m benchmarks run yaw",
+    }
+
+
+def failed(instance, method):
+    names = {"problem": "yaw", "instance": instance, "method": method, "time_limit": 60.0}
+    rest = {name: line("", "", 0, 0)[name] for name in ("seed", "commit", "machine", "versions")}
+    return names | rest | {"status": "failed", "reason": "out of luck", "command": ""}
+
+
+AHEAD, BEHIND, TABLE, LOST = (
+    "grid5x5-5D-270",
+    "grid5x5-5D-272",
+    "grid5x5-5D-table",
+    "grid5x5-5D-275",
+)
+LINES = [
+    line(AHEAD, "nlp", 0.1030, 0.1, bound=5.5e7),
+    line(AHEAD, "floris", 0.1000, 4.0),
+    line(BEHIND, "nlp", 0.2000, 0.2, bound=6e7),
+    line(BEHIND, "floris", 0.2003, 6.0),
+    line(TABLE, "nlp", 0.0400, 5.0, bound=5e7),
+    line(TABLE, "floris", 0.0400, 30.0),
+    failed(LOST, "nlp"),
+    line(LOST, "floris", 0.1, 4.0),
+]
+
+
+def rows(table):
+    head, *found = table
+    return [dict(zip(head, row, strict=True)) for row in found]
+
+
+def test_gains_differ_by_points_and_times_by_a_ratio():
+    ahead, behind, _, _ = rows(beside_floris(LINES, "nlp"))
+    assert (ahead["points more"], ahead["times faster"]) == ("+0.300", "40")
+    assert (behind["points more"], behind["times faster"]) == ("-0.030", "30")
+    assert ahead["bound over power"] == "1.247"  # 55 MW over 44.12 MW
+
+
+def test_a_case_counts_as_no_less_within_two_hundredths_of_a_point():
+    (program,) = rows(summary(LINES))
+    assert (program["cases"], program["failed"]) == ("3", "1")
+    assert program["gain no less than FLORIS's - 0.02 points"] == "2 of 3"
+    assert (program["least"], program["most"]) == ("-0.030", "+0.300")
+    assert program["points more: mean"] == "+0.090"
+
+
+def test_tables_of_winds_are_not_timed_among_single_winds():
+    single, table = rows(by_size(LINES))
+    assert (single["set for"], single["times faster: least"], single["most"]) == (
+        "one wind",
+        "30",
+        "40",
+    )
+    assert (table["set for"], table["median"]) == ("table", "6")
+
+
+def test_where_floris_gains_more_is_said():
+    assert rows(where_floris_gains_more(LINES)) == [
+        {"instance": BEHIND, "method": "nonlinear program", "points less": "0.0300"}
+    ]
+
+
+def test_what_failed_and_what_was_not_measured_is_said():
+    *_, lost = rows(beside_floris(LINES, "nlp"))
+    assert lost["windopt: gain"] == "failed"
+    assert rows(beside_floris(LINES, "serial-refine"))[0]["windopt: gain"] == "not measured"
+    assert rows(not_measured(LINES, [AHEAD, "row3-5D-272"])) == [
+        {"instance": AHEAD, "methods": "serial-refine"},
+        {"instance": "row3-5D-272", "methods": "floris, nlp, serial-refine"},
+    ]
+
+
+@pytest.mark.parametrize("lines", [LINES, LINES[:1], LINES[6:7], []])
+def test_the_tables_print_whatever_was_measured(lines):
+    printed = show(lines)
+    assert all(title in printed for title in tables(lines))
+    assert ("Over all instances" in printed) == (lines == LINES)
+    assert ("out of luck" in printed) == (LINES[6] in lines)
+
+
+def test_the_page_shows_tables_failures_and_what_is_missing(tmp_path):
+    for record in LINES:
+        appended(record, tmp_path / "yaw.jsonl")
+    (page,) = write_pages(tmp_path, tmp_path / "pages")
+    text = page.read_text(encoding="utf-8")
+    assert page.stem == "yaw"
+    for said in "+0.300", "out of luck", "Where FLORIS's set-points gain more", "were not measured":
+        assert said in text
+
+
+def test_the_full_set_holds_every_other_and_is_steered_by_all_methods():
+    assert {*INSTANCES["small"], *INSTANCES["medium"]} < {*INSTANCES["full"]}
+    assert set(METHODS) == {"nlp", "serial-refine", "floris"}
