@@ -2,7 +2,8 @@
 
 Every method takes the same problem and is judged by the exact model of :mod:`windopt.wakes`. No
 misalignment lets a turbine deliver more than it does unwaked, so the sum of that over the farm is a
-proven bound; it is reached where the wind is strong enough for all to run at rated power.
+proven bound; it is reached where the wind is strong enough for all to run at rated power. Elsewhere
+:mod:`windopt.solving.yaw_bound` comes closer.
 """
 
 from collections.abc import Sequence
@@ -86,9 +87,9 @@ def plan_yaw(
     wind
         The steady wind, or the one about which it scatters.
     method
-        ``"nlp"`` solves the program of :mod:`formulations.farm_yaw` from several starts,
-        ``"serial-refine"`` is FLORIS's heuristic, ``"algorithm-1"`` the paper's rule, which does
-        not know of wakes.
+        ``"nlp"`` solves the program of :mod:`formulations.farm_yaw` from where a search rotor by
+        rotor ends, ``"serial-refine"`` is FLORIS's heuristic, ``"algorithm-1"`` the paper's rule,
+        which does not know of wakes.
     steering
         Turbulence, bounds, the wind's scatter and the farm's cap; FLORIS's usual ones by default.
     nacelle
@@ -99,7 +100,7 @@ def plan_yaw(
     time_limit
         Wall-clock limit [s].
     seed
-        Seed of further starts.
+        Of whatever is drawn at random.
 
     Raises
     ------
