@@ -75,6 +75,48 @@ def test_a_nacelle_left_behind_by_the_wind_comes_within_its_bounds(turning):
     assert check(step).passed
 
 
+SLOW = Pace(rate=radians(2.0) / 300.0, threshold=0.0)
+VEERING = [268.0, 269.0, 270.5, 273.0]
+
+
+def test_slow_nacelles_turn_before_the_wind_in_which_they_stand_aside():
+    options = {"nacelle": radians(268.0), "pace": SLOW}
+    one_by_one = plan_schedule(FARM, forecast(VEERING), method="serial-refine", **options)
+    ahead = plan_schedule(FARM, forecast(VEERING), method="nlp", **options)
+    nacelles = np.array([[p.nacelle for p in step.found().set_points] for step in ahead])
+    turned = np.diff(np.vstack([np.full(3, radians(268.0)), nacelles]), axis=0)
+    assert np.abs(turned).max() <= radians(2.0) + 1e-9
+    assert sum(s.objective for s in ahead) > sum(s.objective for s in one_by_one)
+    assert all(check(step).passed for step in ahead)
+
+
+def test_a_wind_that_cannot_be_followed_is_planned_step_by_step():
+    options = {"nacelle": radians(268.0), "pace": SLOW, "method": "nlp"}
+    steps = plan_schedule(FARM, forecast([268.0, 330.0]), **options)
+    assert misalignments(steps[1]) == pytest.approx(25.0)
+    assert all(check(step).passed for step in steps)
+
+
+def test_trips_that_do_not_repay_as_a_whole_are_not_made():
+    pace = replace(SLOW, threshold=0.5)
+    steps = plan_schedule(FARM, forecast(VEERING), nacelle=radians(268.0), method="nlp", pace=pace)
+    nacelles = [point.nacelle for step in steps for point in step.found().set_points]
+    assert nacelles == pytest.approx([radians(268.0)] * 12)
+    assert {step.status for step in steps} == {Status.FEASIBLE}
+
+
+def test_what_is_best_within_reach_is_not_called_optimal(monkeypatch):
+    def nearest(problem, **_):
+        power = float(yaw.farm_power(problem, problem.facing))
+        return Result(Status.OPTIMAL, problem.facing, power, power, 0.0)
+
+    monkeypatch.setitem(yaw.METHODS, "nearest", nearest)
+    options = {"nacelle": radians(250.0), "pace": SLOW, "method": "nearest"}
+    (step,) = plan_schedule(FARM, forecast([270.0]), **options)
+    assert step.status is not Status.OPTIMAL
+    assert check(step).passed
+
+
 @pytest.mark.parametrize(("threshold", "first"), [(0.0, 20.0), (0.5, 1.0)])
 def test_a_gain_below_the_threshold_moves_no_nacelle(monkeypatch, threshold, first):
     gamma = np.radians([20.0, 15.0, 0.0])

@@ -2,7 +2,8 @@
 
 Each step is a wind-steering problem of its own, robust to the directions that the forecast holds
 possible. Nacelles start where the step before left them: how far they turn in the time of a step
-bounds the problem itself, and where the best set-points would not repay the trip, they stay.
+bounds the problem itself, and where the best set-points would not repay the trip, they stay. Where
+they turn so slowly that one step hinders the next, the nonlinear program decides all steps at once.
 """
 
 from collections.abc import Sequence
@@ -24,6 +25,7 @@ from windopt.errors import InvalidInput
 from windopt.planning.turbine_yaw import present_misalignments
 from windopt.planning.yaw import curve_of, judged_plan, method_named
 from windopt.result import Result, Status
+from windopt.solving.yaw_schedule import Window, mean_power, steer_all
 from windopt.wakes.farm import farm_power
 
 Floats = NDArray[np.float64]
@@ -83,7 +85,8 @@ def plan_schedule(
         Where the nacelles face at present, clockwise from north [rad]: one direction for all
         turbines, or one for each.
     method, steering, air_density
-        As in :func:`windopt.plan_yaw`.
+        As in :func:`windopt.plan_yaw`; ``"nlp"`` looks ahead where the pace hinders it, and turns
+        nacelles before the wind in which they will stand aside.
     pace
         How nacelles turn; by default 0.3 deg/s at most, and only for a gain of 0.1 %.
     time_limit
@@ -96,26 +99,70 @@ def plan_schedule(
     require_positive("air_density", air_density)
     pace, steering = pace or Pace(), steering or Steering()
     search = method_named(method)
-    starts = np.concatenate([[forecast.issued], forecast.time[:-1]])
-    seconds = (forecast.time - starts) / np.timedelta64(1, "s")
+    exposed = [_exposed(steering, forecast, step) for step in range(len(forecast))]
+    problems = [
+        yaw_problem(
+            farm, wind, e, curve_of, air_density=air_density, present=_present(farm, wind, nacelle)
+        )
+        for wind, e in zip(forecast.winds, exposed, strict=True)
+    ]
+    turns = pace.rate * _seconds(forecast)
+    ahead = None
+    if method == "nlp":
+        ahead = _ahead(problems, float(turns.min()), pace.threshold, deadline)
     results: list[Result[YawPlan]] = []
     for step, wind in enumerate(forecast.winds):
         begin = perf_counter()
-        exposed = _exposed(steering, forecast, step)
-        present = np.array(present_misalignments(len(farm), wind, nacelle))
-        problem = yaw_problem(
-            farm, wind, exposed, curve_of, air_density=air_density, present=present
-        )
-        reached = _within_reach(problem, present, pace.rate * float(seconds[step]))
-        left = 0.0 if _stopped(results) else max(0.0, deadline - begin)
-        found = search(reached, time_limit=left / (len(forecast) - step), seed=seed)
-        if method != "algorithm-1":
-            found = _worth_it(reached, present, found, pace.threshold)
-        # What is proved within reach of the nacelles is no bound on the farm's set-points.
-        result = judged_plan(farm, wind, problem, exposed, replace(found, bound=problem.bound))
-        results.append(replace(result, runtime=perf_counter() - begin))
+        present = _present(farm, wind, nacelle)
+        problem = replace(problems[step], present=present)
+        reached = _within_reach(problem, present, float(turns[step]))
+        if ahead is not None:
+            found = ahead.carrying(np.clip(ahead.found()[step], reached.lower, reached.upper))
+        else:
+            left = 0.0 if _stopped(results) else max(0.0, deadline - begin)
+            found = search(reached, time_limit=left / (len(forecast) - step), seed=seed)
+            if method != "algorithm-1":
+                found = _worth_it(reached, present, found, pace.threshold)
+        result = judged_plan(farm, wind, problem, exposed[step], _unproved(found, problem))
+        shared = 0.0 if ahead is None else ahead.runtime / len(forecast)
+        results.append(result.timed(shared + perf_counter() - begin))
         nacelle = [point.nacelle for point in result.found().set_points]
     return tuple(results)
+
+
+def _present(farm: Farm, wind: Wind, nacelle: float | Sequence[float]) -> Floats:
+    return np.array(present_misalignments(len(farm), wind, nacelle))
+
+
+def _seconds(forecast: WindForecast) -> Floats:
+    """Return how long nacelles have to turn before each step [s], shape ``(T,)``."""
+    starts = np.concatenate([[forecast.issued], forecast.time[:-1]])
+    seconds: Floats = (forecast.time - starts) / np.timedelta64(1, "s")
+    return seconds
+
+
+def _ahead(
+    problems: Sequence[YawProblem], turn: float, threshold: float, deadline: float
+) -> Result[Floats] | None:
+    """Decide all steps at once, where turning by ``turn`` [rad] in one of them is not enough.
+
+    The trips are weighed as a whole, for one that is made early may repay later only.
+
+    Returns
+    -------
+    Misalignments [rad], shape ``(T, n)``; ``None`` where the steps are better taken one by one, as
+    each can be reached from any other, or as the wind turns too fast to be followed.
+    """
+    window = Window(problems, turn)
+    farthest = max(float((problem.upper - problem.lower).max()) for problem in problems)
+    if turn >= farthest + np.abs(window.shifts).max(initial=0.0):
+        return None
+    found = steer_all(problems, turn=turn, time_limit=max(0.0, deadline - perf_counter()))
+    if found.solution is None:
+        return None
+    held = window.nearest(np.array([problem.present for problem in problems]))
+    kept = mean_power(problems, held)
+    return found if found.objective > kept * (1 + threshold) else _instead(found, held, kept)
 
 
 def _exposed(steering: Steering, forecast: WindForecast, step: int) -> Steering:
@@ -153,8 +200,21 @@ def _worth_it(
     kept, faced = (float(p) for p in farm_power(problem, np.array([held, problem.facing])))
     power = -inf if found.solution is None else float(farm_power(problem, found.solution))
     if max(power, faced) <= kept * (1 + threshold):
-        return replace(found, solution=held, objective=kept)
-    return found if power >= faced else replace(found, solution=problem.facing, objective=faced)
+        return _instead(found, held, kept)
+    return found if power >= faced else _instead(found, problem.facing, faced)
+
+
+def _instead(found: Result[Floats], yaw: Floats, power: float) -> Result[Floats]:
+    """Return other misalignments than those found, of which nothing is known to be optimal."""
+    status = Status.INTERRUPTED if found.status is Status.INTERRUPTED else Status.FEASIBLE
+    return replace(found, status=status, solution=yaw, objective=power, reason="")
+
+
+def _unproved(found: Result[Floats], problem: YawProblem) -> Result[Floats]:
+    """Forget what is proved within reach of the nacelles: it is no bound on the set-points."""
+    local = found.status is Status.OPTIMAL
+    status = Status.LOCALLY_OPTIMAL if local else found.status
+    return replace(found, status=status, bound=problem.bound)
 
 
 def _stopped(results: Sequence[Result[YawPlan]]) -> bool:
