@@ -9,6 +9,7 @@ from windopt.checking import check
 from windopt.domain.farm import Farm
 from windopt.domain.fleet import Fleet, Station
 from windopt.domain.plan import Flight, InspectionPlan, Plan, SetPoint, YawPlan
+from windopt.domain.steering import Pace
 from windopt.domain.turbine import Turbine
 from windopt.domain.wind import Wind, WindForecast
 from windopt.result import Result, Status
@@ -39,6 +40,13 @@ def flown(wind):
 PLAN = Plan(
     START, FORECAST, tuple(parked(wind) for wind in FORECAST.winds), flown(FORECAST.mean)
 )  # fmt: skip
+
+
+def test_nacelles_of_a_whole_plan_keep_its_pace():
+    away = replace(PLAN.yaw[1].solution.set_points[0], nacelle=0.0, misalignment=np.pi / 2)
+    turned = replace(PLAN.yaw[1], solution=replace(PLAN.yaw[1].solution, set_points=(away,)))
+    plan = replace(PLAN, yaw=(PLAN.yaw[0], turned, PLAN.yaw[2]), pace=Pace(rate=0.001))
+    assert any("22:10: turbine A1: the nacelle turns by 90" in v for v in check(plan).violations)
 
 
 def test_a_whole_plan_worked_out_on_paper_passes():

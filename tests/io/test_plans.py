@@ -27,7 +27,7 @@ from windopt.domain.plan import (
     YawPlan,
 )
 from windopt.domain.power_curve import PowerCurve
-from windopt.domain.steering import Steering
+from windopt.domain.steering import Pace, Steering
 from windopt.domain.turbine import SG_8_167, Turbine
 from windopt.domain.wind import Wind, WindForecast
 from windopt.errors import InvalidInput
@@ -91,7 +91,8 @@ FORECAST = WindForecast(
     np.datetime64("2011-04-13T22:00:00"), TIMES, np.array([8.0, 9.1]), np.radians([10, 350.1]),
     "persistence", ("A note.",),
 )  # fmt: skip
-WHOLE = Plan(np.datetime64("2011-04-13T22:00:30"), FORECAST, (TURNED, TURNED), FLOWN)
+PACE = Pace(rate=radians(0.25), threshold=0.002)
+WHOLE = Plan(np.datetime64("2011-04-13T22:00:30"), FORECAST, (TURNED, TURNED), FLOWN, PACE)
 
 RECORDS = {"inspection": record_of(FLOWN), "yaw": record_of(TURNED), "plan": record_of(WHOLE)}
 
@@ -168,6 +169,8 @@ def test_a_whole_plan_is_read_back():
     plan = back(WHOLE)
     assert (plan.time, plan.inspection) == (WHOLE.time, FLOWN)
     assert [near(step) for step in plan.yaw] == [near(TURNED)] * 2
+    assert (plan.pace.rate, plan.pace.threshold) == (pytest.approx(PACE.rate), PACE.threshold)
+    assert back(replace(WHOLE, pace=None)).pace is None
     forecast = plan.forecast
     assert (forecast.issued, forecast.method, forecast.notes) == (
         FORECAST.issued,
@@ -267,6 +270,8 @@ def test_a_plan_with_a_value_that_is_no_number_is_not_written(tmp_path):
         ("plan", "time", "2011-13-01", "time to be a time"),
         ("plan", "forecast.steps", [], "forecast"),
         ("plan", "forecast.steps.0.time", "NaT", r"forecast.steps\[0\].time"),
+        ("plan", "pace.rate", 0.0, "rate > 0 rad/s"),
+        ("plan", "pace.threshold", ..., "pace.threshold to be given"),
         ("plan", "yaw.1.status", ..., r"yaw\[1\].status to be given"),
     ],
 )

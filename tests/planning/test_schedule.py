@@ -9,13 +9,13 @@ import pytest
 from windopt.checking import check
 from windopt.domain.farm import Farm
 from windopt.domain.quantiles import Quantiles
-from windopt.domain.steering import Steering
+from windopt.domain.steering import Pace, Steering
 from windopt.domain.turbine import Turbine
 from windopt.domain.wind import WindForecast
 from windopt.errors import InvalidInput
 from windopt.io.floris import library_turbine
 from windopt.planning import yaw
-from windopt.planning.schedule import Pace, plan_schedule
+from windopt.planning.schedule import plan_schedule
 from windopt.result import Result, Status
 
 NREL = library_turbine("nrel_5MW")

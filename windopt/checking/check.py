@@ -6,6 +6,7 @@ from math import inf, isclose, isfinite, isnan
 from typing import Any
 
 from windopt.checking.inspection import check_inspection
+from windopt.checking.pace import too_fast
 from windopt.checking.report import Report
 from windopt.checking.yaw import check_yaw, power_to_beat
 from windopt.domain.certificate import Certificate
@@ -112,6 +113,7 @@ def _check_steps(plan: Plan) -> Report:
         report += _check_result(yaw).about(f"yaw at {time}")
         if yaw.solution and not _same(yaw.solution.wind.velocity, wind.velocity):
             report += Report((f"yaw at {time}: the wind is not that of the forecast",))
+    report += Report(tuple(too_fast(plan)))
     flown = plan.inspection.solution
     if flown and not _same(flown.wind.velocity, plan.forecast.mean.velocity):
         report += Report(("inspection: the wind is not the forecast's mean",))

@@ -7,7 +7,7 @@ import numpy as np
 
 from windopt.domain.farm import Farm
 from windopt.domain.fleet import Fleet
-from windopt.domain.steering import Steering
+from windopt.domain.steering import Pace, Steering
 from windopt.domain.wind import Wind, WindForecast
 from windopt.result import Result
 
@@ -196,9 +196,12 @@ class Plan:
         Set-points for each step of the forecast.
     inspection
         Flights for the forecast's mean wind.
+    pace
+        How nacelles turn from step to step; ``None`` where nothing is said of it.
     """
 
     time: np.datetime64
     forecast: WindForecast
     yaw: tuple[Result[YawPlan], ...]
     inspection: Result[InspectionPlan]
+    pace: Pace | None = None

@@ -1,4 +1,4 @@
-"""How a farm is steered: the air's turbulence, how far rotors may turn, and which winds count."""
+"""How a farm is steered: which winds count, how far rotors may turn in them, and how fast."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -72,6 +72,29 @@ class Steering:
         else:
             rows = [(wind.speed, wind.theta_met, 1.0)]
         return tuple(np.array(column) for column in zip(*rows, strict=True))
+
+
+@dataclass(frozen=True)
+class Pace:
+    """How nacelles turn between the steps of a schedule.
+
+    Parameters
+    ----------
+    rate
+        How fast they turn at most [rad/s].
+    threshold
+        Gain in the farm's power, as a fraction of it, below which they stay where they are [-].
+    """
+
+    rate: float = radians(0.3)
+    threshold: float = 0.001
+
+    def __post_init__(self) -> None:
+        if not self.rate > 0:
+            raise InvalidInput("rate", "> 0 rad/s", self.rate)
+        require_not_negative("threshold", self.threshold)
+        if not isfinite(self.threshold):
+            raise InvalidInput("threshold", "to be finite", self.threshold)
 
 
 def yaw_problem(

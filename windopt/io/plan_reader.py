@@ -20,12 +20,11 @@ from windopt.domain.plan import (
     Unreachable,
     YawPlan,
 )
-from windopt.domain.power_curve import PowerCurve
-from windopt.domain.steering import Steering
-from windopt.domain.turbine import Turbine, TurbineType
+from windopt.domain.steering import Pace, Steering
 from windopt.domain.wind import Wind, WindForecast
 from windopt.errors import InvalidInput
 from windopt.io.entries import Entry
+from windopt.io.farm_reader import farm_of, pair_of
 from windopt.io.plan_records import SCHEMA, VERSION
 from windopt.result import Result, Status
 
@@ -63,14 +62,15 @@ def plan_from_record(document: Any) -> Recorded:
     kind = record["kind"].text
     if kind not in ("inspection", "yaw", "plan"):
         raise record["kind"].refuse("to be inspection, yaw or plan")
-    farm = _farm(record["farm"])
+    farm = farm_of(record["farm"])
     if kind == "yaw":
         return _yaw_result(record, farm)
     inspection = _result(record, _inspection(record, farm), unproved=-inf)
     if kind == "inspection":
         return inspection
     yaw = tuple(_yaw_result(step, farm) for step in record["yaw"])
-    return Plan(_time(record["time"]), _forecast(record["forecast"]), yaw, inspection)
+    pace = _pace(record["pace"]) if "pace" in record else None
+    return Plan(_time(record["time"]), _forecast(record["forecast"]), yaw, inspection, pace)
 
 
 def _result(record: Entry, solution: Solution, unproved: float) -> Result[Solution]:
@@ -189,7 +189,7 @@ def _yaw(record: Entry, farm: Farm) -> YawPlan:
 
 def _steering(entry: Entry) -> Steering:
     cap = entry.nullable("farm_cap")
-    lower, upper = _pair(entry["bounds"])
+    lower, upper = pair_of(entry["bounds"])
     return Steering(
         entry["turbulence"].number,
         radians(lower),
@@ -199,6 +199,10 @@ def _steering(entry: Entry) -> Steering:
         inf if cap is None else cap.number,
         entry["shear"].number,
     )
+
+
+def _pace(entry: Entry) -> Pace:
+    return Pace(radians(entry["rate"].number), entry["threshold"].number)
 
 
 def _set_point(entry: Entry, farm: Farm) -> SetPoint:
@@ -240,55 +244,3 @@ def _time(entry: Entry) -> np.datetime64:
     except ValueError:
         pass
     raise entry.refuse("to be a time such as 2011-04-13T22:00")
-
-
-def _farm(entry: Entry) -> Farm:
-    crs = entry.nullable("crs")
-    types = {key: _turbine_type(given) for key, given in entry["turbine_types"].items()}
-    return Farm(
-        entry["name"].text,
-        tuple(_turbine(turbine, types) for turbine in entry["turbines"]),
-        None if crs is None else crs.text,
-        tuple(_pair(place) for place in entry["substations"]),
-        entry["source"].text,
-        tuple(entry["notes"].texts),
-    )
-
-
-def _pair(entry: Entry) -> tuple[float, float]:
-    if len(entry.numbers) != 2:
-        raise entry.refuse("to be a pair of numbers")
-    x, y = entry.numbers
-    return x, y
-
-
-def _turbine(entry: Entry, types: dict[str, TurbineType]) -> Turbine:
-    if entry["type"].text not in types:
-        raise entry["type"].refuse(f"to be one of {', '.join(types)}")
-    return Turbine(
-        entry["name"].text, entry["x"].number, entry["y"].number, types[entry["type"].text]
-    )
-
-
-def _turbine_type(entry: Entry) -> TurbineType:
-    hub_height = entry.nullable("hub_height")
-    return TurbineType(
-        entry["name"].text,
-        entry["rated_power"].number,
-        entry["swept_area"].number,
-        entry["cut_in"].number,
-        entry["cut_out"].number,
-        None if hub_height is None else hub_height.number,
-        entry["power_coefficient"].text,
-        None if (curve := entry.nullable("curve")) is None else _curve(curve),
-    )
-
-
-def _curve(entry: Entry) -> PowerCurve:
-    return PowerCurve(
-        tuple(entry["wind_speeds"].numbers),
-        tuple(entry["powers"].numbers),
-        tuple(entry["thrust_coefficients"].numbers),
-        entry["air_density"].number,
-        entry["yaw_exponent"].number,
-    )

@@ -14,7 +14,7 @@ from windopt.domain.farm import Farm
 from windopt.domain.fleet import Station, Uav
 from windopt.domain.plan import Flight, InspectionPlan, Plan, SetPoint, YawPlan
 from windopt.domain.power_curve import PowerCurve
-from windopt.domain.steering import Steering
+from windopt.domain.steering import Pace, Steering
 from windopt.domain.turbine import TurbineType
 from windopt.domain.wind import Wind, WindForecast
 from windopt.result import Result
@@ -48,6 +48,7 @@ def plan_record(plan: Plan) -> Record:
             {"time": str(time), **_outcome(step), **_yaw(step.found())}
             for time, step in zip(plan.forecast.time, plan.yaw, strict=True)
         ],
+        **({} if plan.pace is None else {"pace": _pace(plan.pace)}),
     }
 
 
@@ -131,6 +132,10 @@ def _steering(steering: Steering) -> Record:
         "farm_cap": _finite(steering.farm_cap),
         "shear": float(steering.shear),
     }
+
+
+def _pace(pace: Pace) -> Record:
+    return {"rate": _degrees(pace.rate), "threshold": float(pace.threshold)}
 
 
 def _wind(wind: Wind) -> Record:

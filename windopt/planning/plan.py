@@ -9,7 +9,7 @@ from windopt.domain.farm import Farm
 from windopt.domain.fleet import Fleet
 from windopt.domain.plan import Plan, SpeedRule, YawPlan
 from windopt.domain.power_curve import STANDARD_AIR_DENSITY
-from windopt.domain.steering import Steering
+from windopt.domain.steering import Pace, Steering
 from windopt.domain.turbine import require_not_negative
 from windopt.domain.wind import WindSeries
 from windopt.errors import InvalidInput
@@ -20,7 +20,7 @@ from windopt.forecasting.persistence import Persistence
 from windopt.planning.assignment import Assignment
 from windopt.planning.inspection import DEFAULT_METHOD, plan_inspection
 from windopt.planning.schedule import METHOD as DEFAULT_YAW_METHOD
-from windopt.planning.schedule import Pace, plan_schedule
+from windopt.planning.schedule import plan_schedule
 from windopt.planning.search_options import MEMORY
 from windopt.planning.start import Start
 from windopt.result import Result, Status
@@ -100,6 +100,7 @@ def plan(
     """
     begin = perf_counter()
     require_not_negative("time_limit", time_limit)
+    pace = pace or Pace()
     known = series if time is None else series.until(time)
     forecast = _fitted(forecaster, known).predict(known)
     yaw = plan_schedule(
@@ -130,7 +131,7 @@ def plan(
         seed=seed,
         progress=progress,
     )
-    return Plan(forecast.issued, forecast, yaw, inspection)
+    return Plan(forecast.issued, forecast, yaw, inspection, pace)
 
 
 def _fitted(forecaster: Forecaster | str, known: WindSeries) -> Forecaster:

@@ -7,8 +7,8 @@ they turn so slowly that one step hinders the next, the nonlinear program decide
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from math import inf, isfinite, pi, radians
+from dataclasses import replace
+from math import inf, pi
 from time import perf_counter
 
 import numpy as np
@@ -17,11 +17,10 @@ from numpy.typing import NDArray
 from windopt.domain.farm import Farm
 from windopt.domain.plan import YawPlan
 from windopt.domain.power_curve import STANDARD_AIR_DENSITY
-from windopt.domain.steering import Steering, yaw_problem
-from windopt.domain.turbine import require_not_negative, require_positive
+from windopt.domain.steering import Pace, Steering, yaw_problem
+from windopt.domain.turbine import require_positive
 from windopt.domain.wind import Wind, WindForecast
 from windopt.domain.yaw_problem import YawProblem
-from windopt.errors import InvalidInput
 from windopt.planning.turbine_yaw import present_misalignments
 from windopt.planning.yaw import curve_of, judged_plan, method_named
 from windopt.result import Result, Status
@@ -36,29 +35,6 @@ half a second of processor time, the nonlinear program 4 to 8 s for 0.1 to 0.3 %
 
 SPREAD = (0.1, 0.3, 0.5, 0.7, 0.9)
 """Levels whose directions stand for a forecast's spread, each a fifth of what may come."""
-
-
-@dataclass(frozen=True)
-class Pace:
-    """How nacelles turn between the steps of a schedule.
-
-    Parameters
-    ----------
-    rate
-        How fast they turn at most [rad/s].
-    threshold
-        Gain in the farm's power, as a fraction of it, below which they stay where they are [-].
-    """
-
-    rate: float = radians(0.3)
-    threshold: float = 0.001
-
-    def __post_init__(self) -> None:
-        if not self.rate > 0:
-            raise InvalidInput("rate", "> 0 rad/s", self.rate)
-        require_not_negative("threshold", self.threshold)
-        if not isfinite(self.threshold):
-            raise InvalidInput("threshold", "to be finite", self.threshold)
 
 
 def plan_schedule(

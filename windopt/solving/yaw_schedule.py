@@ -41,7 +41,7 @@ def steer_all(
         The most that a nacelle may turn from one step to the next [rad]. It turns with the weighted
         mean direction of the wind, less the change of its misalignment.
     time_limit
-        Wall-clock limit [s].
+        Wall-clock limit [s]; the bound comes last, and closer where time is left for it.
     seed
         Ignored: nothing is drawn at random.
 
@@ -66,8 +66,10 @@ def steer_all(
     bounds = [problem.bound for problem in problems]
     try:
         if perf_counter() < deadline:
-            bounds, source = [yaw_bound(problem) for problem in problems], BY_INTERVALS
             best, status = _searched(problems, window, best, deadline)
+        for t, problem in enumerate(problems):
+            if perf_counter() < deadline and status is not Status.INTERRUPTED:
+                bounds[t], source = yaw_bound(problem), BY_INTERVALS
     except KeyboardInterrupt:
         status = Status.INTERRUPTED
     power, runtime = mean_power(problems, best), perf_counter() - begin
