@@ -140,6 +140,7 @@ def not_measured(records: Sequence[Record], instances: Sequence[str]) -> Rows:
 
 
 def _by_instance(records: Sequence[Record]) -> Mapping[str, Mapping[str, Record]]:
+    """Return the lines of each instance by method; of several the last one counts."""
     lines: dict[str, dict[str, Record]] = defaultdict(dict)
     for record in records:
         lines[record["instance"]][record["method"]] = record
