@@ -62,6 +62,19 @@ def test_no_time_leaves_the_rotors_facing_the_wind():
     assert result.found().gain == 0.0
 
 
+def test_ctrl_c_in_one_cell_ends_the_table(monkeypatch):
+    asked = []
+
+    def interrupted(problem, **_):
+        asked.append(problem)
+        return Result(Status.INTERRUPTED, problem.facing, 0.0, problem.bound, 0.0)
+
+    monkeypatch.setitem(yaw.METHODS, "nlp", interrupted)
+    result = plan_yaw_table(FARM, [7.0, 8.0], DIRECTIONS)
+    assert result.status is Status.INTERRUPTED
+    assert len(asked) == 1
+
+
 def test_progress_is_told():
     told = []
     plan_yaw_table(FARM, [8.0], DIRECTIONS, done=lambda *counts: told.append(counts))

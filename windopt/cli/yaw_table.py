@@ -18,6 +18,7 @@ from windopt.io.whole_files import require_absent
 from windopt.io.yaw_tables import require_table_name, write_yaw_table
 from windopt.planning.yaw import DEFAULT_METHOD
 from windopt.planning.yaw_table import LARGEST, Effort, plan_yaw_table
+from windopt.result import Status
 
 RANGE = "numbers with commas, or FROM:TO:STEP with TO included"
 Speeds = Annotated[str, typer.Option(metavar="LIST", help=f"Wind speeds [m/s]: {RANGE}.")]
@@ -69,6 +70,8 @@ def yaw_table(
         f"{table.gain:+.2%} over facing them; bound {result.bound / 1e6:.3f} MW, "
         f"{result.runtime:.1f} s. Written to {out}."
     )
+    if result.status is Status.INTERRUPTED:
+        say(result.status.sentence)
 
 
 def parsed_range(option: str, text: str) -> NDArray[np.float64]:

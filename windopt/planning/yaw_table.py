@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from math import inf, pi
 from time import perf_counter, time
+from typing import Any
 
 import numpy as np
 from joblib import Parallel, delayed
@@ -153,9 +154,16 @@ def _solved(
 ) -> Iterator[list[Result[NDArray[np.float64]]]]:
     """Yield the answers of each direction, in order: one for each of its V speeds."""
     deadline = time() + effort.time_limit  # the clock that processes share
-    rows = (problems[first : first + V] for first in range(0, len(problems), V))
-    tasks = (delayed(_row)(row, method, deadline, effort.seed) for row in rows)
-    yield from Parallel(n_jobs=effort.jobs, return_as="generator")(tasks)
+    stopped = False
+
+    def tasks() -> Iterator[Any]:
+        for first in range(0, len(problems), V):
+            until = -inf if stopped else deadline
+            yield delayed(_row)(problems[first : first + V], method, until, effort.seed)
+
+    for row in Parallel(n_jobs=effort.jobs, return_as="generator")(tasks()):
+        stopped = stopped or any(result.status is Status.INTERRUPTED for result in row)
+        yield row
 
 
 def _row(
@@ -165,7 +173,7 @@ def _row(
     found: list[Result[NDArray[np.float64]]] = []
     for problem in problems:
         left = deadline - time()
-        if left <= 0:
+        if left <= 0 or (found and found[-1].status is Status.INTERRUPTED):
             found.append(Result(Status.NO_SOLUTION, None, -inf, problem.bound, 0.0))
         elif method == "nlp" and found:
             start = found[-1].solution
