@@ -69,12 +69,17 @@ def show_plan(plan: Plan) -> None:
     steps = zip(plan.forecast.time, plan.forecast.winds, plan.yaw, strict=True)
     for time, wind, yaw in steps:
         set_points = yaw.found()
-        facing = sorted({f"{degrees(point.nacelle):.1f}" for point in set_points.set_points})
-        told = facing[0] if len(facing) == 1 else f"{facing[0]} to {facing[-1]}"
-        row = f"{wind.speed:.2f}", f"{degrees(wind.theta_met):.1f}", told
+        row = f"{wind.speed:.2f}", f"{degrees(wind.theta_met):.1f}", facing(set_points)
         table.add_row(str(time), *row, f"{set_points.power / 1e6:.2f}")
     out.print(table)
     show_inspection(plan.inspection)
+
+
+def facing(plan: YawPlan) -> str:
+    """Return where the nacelles face [deg], from the first to the last clockwise."""
+    clockwise = sorted(plan.set_points, key=lambda point: -point.misalignment)
+    first, last = (f"{degrees(point.nacelle):.1f}" for point in (clockwise[0], clockwise[-1]))
+    return first if first == last else f"{first} to {last}"
 
 
 def show_inspection(result: Result[InspectionPlan]) -> None:
@@ -89,8 +94,11 @@ def show_inspection(result: Result[InspectionPlan]) -> None:
         stops = " > ".join(escape(name) for name in flight.turbines)
         table.add_row(escape(flight.station), stops, f"{flight.duration / 60:.2f}")
     out.print(table)
+    reasons: dict[str, list[str]] = {}
     for left_out in plan.unreachable:
-        say(f"Unreachable: {left_out.turbine}. {left_out.reason}")
+        reasons.setdefault(left_out.reason, []).append(left_out.turbine)
+    for reason, names in reasons.items():
+        say(f"Unreachable: {', '.join(names)}. {reason}")
     for left in plan.left_out:
         say(f"Left out: {left.turbine}. {left.reason}")
     flights = counted(len(plan.flights), "flight")
