@@ -1,6 +1,6 @@
 """What farm is steered and under what, from options in the units people use."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import inf, radians
 from typing import Annotated
 
@@ -9,6 +9,8 @@ import typer
 from windopt.cli import options as opt
 from windopt.domain.farm import Farm
 from windopt.domain.steering import Steering
+from windopt.domain.turbine import require_not_negative
+from windopt.io.turbine_types import TYPE_NOTES
 from windopt.io.turbines import BUILT_IN, load_turbine_type
 
 TurbineName = Annotated[
@@ -20,7 +22,10 @@ TurbineName = Annotated[
     ),
 ]
 Turbulence = Annotated[float, typer.Option(help="Ambient turbulence intensity.")]
-Bounds = Annotated[tuple[float, float], typer.Option(help="Least and largest misalignment [deg].")]
+Bounds = Annotated[
+    tuple[float, float],
+    typer.Option(metavar="LEAST LARGEST", help="Least and largest misalignment [deg]."),
+]
 DirectionStd = Annotated[
     float, typer.Option(help="Standard deviation of the wind's direction [deg].")
 ]
@@ -38,6 +43,8 @@ class RotorOptions:
         """Return the farm with these turbines."""
         if self.turbine is not None:
             farm = farm.with_turbine_type(load_turbine_type(self.turbine))
+            kept = tuple(note for note in farm.notes if note not in TYPE_NOTES)
+            farm = replace(farm, notes=kept)
         if self.power_coefficient is not None:
             farm = farm.with_power_coefficient(self.power_coefficient)
         return farm
@@ -54,7 +61,9 @@ class SteeringOptions:
 
     @property
     def steering(self) -> Steering:
-        """The same in SI."""
+        """The same in SI; a mistake is told in the units it was made in."""
+        require_not_negative("--direction-std", self.direction_std)
+        require_not_negative("--farm-cap", self.farm_cap or 0.0)
         lower, upper = map(radians, self.bounds)
         cap = inf if self.farm_cap is None else 1e6 * self.farm_cap
         spread = radians(self.direction_std)

@@ -39,6 +39,8 @@ class Wakes(StrEnum):
     NONE = "none"
 
 
+WITHOUT_WAKES = "to be gauss with --turbulence, --bounds, --direction-std or --farm-cap"
+
 WakeModel = Annotated[
     Wakes,
     typer.Option(
@@ -72,7 +74,7 @@ def yaw(
     site = rotors.equipped(Farm.load(farm))
     note(site.notes)
     if wakes is Wakes.NONE and steered != SteeringOptions():
-        raise InvalidInput("--wakes", "gauss where a farm is steered by other options too", wakes)
+        raise InvalidInput("--wakes", WITHOUT_WAKES, wakes)
     present = None if nacelle is None else radians(nacelle)
     with progress(f"Setting {len(site)} turbines of {site.name} by {method}"):
         if wakes is Wakes.GAUSS:

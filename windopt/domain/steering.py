@@ -48,6 +48,8 @@ class Steering:
 
     def __post_init__(self) -> None:
         require_positive("turbulence", self.turbulence)
+        if self.turbulence >= 1:
+            raise InvalidInput("turbulence", "to be a share below 1, 0.06 for 6 %", self.turbulence)
         require_not_negative("farm_cap", self.farm_cap)
         for field in "direction_std", "shear":
             require_not_negative(field, getattr(self, field))

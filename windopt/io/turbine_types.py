@@ -8,6 +8,12 @@ CURVE_NOTE = (
     "The source gives no thrust coefficients; power and thrust follow the C_p model slootweg."
 )
 DEFAULT_NOTE = f"The source names no turbine type; {SG_8_167.name} is assumed."
+SCALED_NOTE = (
+    "The source gives rated powers only; rotors are scaled from the "
+    f"{SG_8_167.name} at equal power per swept area."
+)
+TYPE_NOTES = CURVE_NOTE, DEFAULT_NOTE, SCALED_NOTE
+"""What no longer holds of a farm whose turbines are replaced."""
 
 
 def types_by_rating(
@@ -28,8 +34,5 @@ def types_by_rating(
     if None in types:
         notes.append(DEFAULT_NOTE)
     if set(types) - {None}:
-        notes.append(
-            "The source gives rated powers only; rotors are scaled from the "
-            f"{SG_8_167.name} at equal power per swept area."
-        )
+        notes.append(SCALED_NOTE)
     return [types[rating] for rating in ratings], tuple(notes)
