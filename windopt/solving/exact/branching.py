@@ -11,6 +11,7 @@ from collections.abc import Callable
 from functools import partial
 from heapq import heappop, heappush
 from itertools import count
+from typing import NamedTuple
 
 import numpy as np
 
@@ -30,8 +31,11 @@ FRACTIONAL = 0.05
 """Distance from a whole number from which a number of flights is branched on."""
 
 
-Branch = tuple[Callable[[Bools], Bools], Floats]
-"""Which flights remain, told from their turbines, and limits on how many are sent."""
+class Branch(NamedTuple):
+    """Which flights remain, told from their turbines, and limits on how many are sent."""
+
+    part: Callable[[Bools], Bools]
+    counts: Floats
 
 
 def branch(root: Tightened, counts: Floats, target: float, search: Search) -> None:
@@ -89,9 +93,8 @@ def _children(node: Tightened, counts: Floats, target: float, search: Search) ->
         return candidates[0] if candidates else []
 
     def gain(branch: Branch) -> float:
-        part, limits = branch
         members = node.selection.members
-        value = node.selection.value_with(part(members), limits, search.clock)
+        value = node.selection.value_with(branch.part(members), branch.counts, search.clock)
         return max(min(value, target) - node.value, LEAST_GAIN)
 
     gains = [[gain(branch) for branch in branches] for branches in candidates]
@@ -107,7 +110,7 @@ def _on_counts(sent: Floats, counts: Floats) -> list[list[Branch]]:
         fewer, more = counts.copy(), counts.copy()
         fewer[which, 1] = np.floor(sent[which])
         more[which, 0] = np.floor(sent[which]) + 1
-        candidates.append([(everything, fewer), (everything, more)])
+        candidates.append([Branch(everything, fewer), Branch(everything, more)])
     return candidates
 
 
@@ -118,7 +121,8 @@ def _on_pairs(together: Floats, counts: Floats) -> list[list[Branch]]:
     for pair in np.argsort(undecided, axis=None, kind="stable")[:PAIRS]:
         i, j = np.unravel_index(pair, undecided.shape)
         if undecided[i, j] <= 0.5 - FRACTIONAL:
-            candidates.append([(partial(as_one, i, j), counts), (partial(apart, i, j), counts)])
+            both = Branch(partial(as_one, i, j), counts), Branch(partial(apart, i, j), counts)
+            candidates.append([*both])
     return candidates
 
 
