@@ -11,7 +11,7 @@ from windopt.domain.fleet import FALCON_8, Fleet, Uav
 from windopt.domain.turbine import Turbine
 from windopt.domain.wind import Wind
 from windopt.errors import InvalidInput
-from windopt.planning.reach import in_reach, routing_instance
+from windopt.planning.reach import routing_instance
 from windopt.planning.station_design import station_design
 from windopt.planning.stations import design_winds, stations_by_cover, stations_by_k_means
 from windopt.result import Status
@@ -44,7 +44,8 @@ def test_every_turbine_is_within_reach_in_each_design_wind_with_the_margin(seed)
     tired = replace(FALCON_8, t_max=FALCON_8.t_max * (1 - margin) * (1 + 1e-9))
     kept = Fleet(tuple(replace(station, uav=tired) for station in fleet.stations))
     for wind in design_winds(FALCON_8):
-        assert in_reach(farm, kept, wind, dwell=[60.0] * 30).any(axis=0).all()
+        instance = routing_instance(farm, kept, wind, dwell=[60.0] * 30)
+        assert instance.reachable.any(axis=0).all()
 
 
 @pytest.mark.parametrize("seed", range(2))
@@ -178,15 +179,6 @@ def test_winds_that_the_uav_does_not_fly_in_are_left_out(place):
 
 def test_a_dwell_as_long_as_a_flight_needs_a_station_at_each_turbine():
     assert len(stations_by_k_means(row(5, 500.0), dwell=FALCON_8.t_max)) == 5
-
-
-@pytest.mark.parametrize("cap", [True, False])
-def test_reach_is_the_same_with_and_without_the_times_between_turbines(cap):
-    farm, wind = row(20, 1500.0), Wind.from_met(9.0, 50.0)
-    fleet = stations_by_k_means(farm, 3, uav=Uav(ground_speed_cap=cap))
-    dwell = [300.0 * (i % 2) for i in range(20)]
-    instance = routing_instance(farm, fleet, wind, dwell=dwell)
-    assert (in_reach(farm, fleet, wind, dwell=dwell) == instance.reachable).all()
 
 
 @pytest.mark.parametrize("count", [0, -1, 6])

@@ -87,8 +87,8 @@ def _inspection(plan: InspectionPlan) -> Record:
         "rule": str(plan.rule),
         "stations": [station_record(station) for station in plan.fleet.stations],
         "flights": [_flight(flight) for flight in plan.flights],
-        "unreachable": [left_out.turbine for left_out in plan.unreachable],
-        "unreachable_reasons": {left.turbine: left.reason for left in plan.unreachable},
+        "unreachable": [each.turbine for each in plan.unreachable],
+        "unreachable_reasons": {each.turbine: each.reason for each in plan.unreachable},
         "dwell": dict(zip(plan.farm.names, map(float, plan.dwell), strict=True)),
         **_choice(plan),
     }

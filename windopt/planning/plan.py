@@ -7,7 +7,7 @@ import numpy as np
 
 from windopt.domain.farm import Farm
 from windopt.domain.fleet import Fleet
-from windopt.domain.plan import Plan, SpeedRule, YawPlan
+from windopt.domain.plan import Plan, SpeedRule
 from windopt.domain.power_curve import STANDARD_AIR_DENSITY
 from windopt.domain.steering import Pace, Steering
 from windopt.domain.turbine import require_not_negative
@@ -20,10 +20,9 @@ from windopt.forecasting.persistence import Persistence
 from windopt.planning.assignment import Assignment
 from windopt.planning.inspection import DEFAULT_METHOD, plan_inspection
 from windopt.planning.schedule import METHOD as DEFAULT_YAW_METHOD
-from windopt.planning.schedule import plan_schedule
+from windopt.planning.schedule import plan_schedule, stopped
 from windopt.planning.search_options import MEMORY
 from windopt.planning.start import Start
-from windopt.result import Result, Status
 from windopt.trace import Progress
 
 FORECASTERS: dict[str, Callable[[], Forecaster]] = {
@@ -114,7 +113,7 @@ def plan(
         time_limit=YAW_SHARE * time_limit,
         seed=seed,
     )
-    left = 0.0 if _stopped(yaw) else max(0.0, begin + time_limit - perf_counter())
+    left = 0.0 if stopped(yaw) else max(0.0, begin + time_limit - perf_counter())
     inspection = plan_inspection(
         farm,
         fleet,
@@ -149,7 +148,3 @@ def _fitted(forecaster: Forecaster | str, known: WindSeries) -> Forecaster:
 def _last_direction(known: WindSeries) -> float:
     """Return the wind direction last measured [rad, met.]."""
     return float(known.theta_met[known.valid][-1])
-
-
-def _stopped(steps: Sequence[Result[YawPlan]]) -> bool:
-    return any(step.status is Status.INTERRUPTED for step in steps)

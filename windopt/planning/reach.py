@@ -47,16 +47,6 @@ def routing_instance(
     )
 
 
-def in_reach(farm: Farm, fleet: Fleet, wind: Wind, *, dwell: Sequence[float]) -> NDArray[np.bool_]:
-    """Return whether station d can inspect turbine i and be back in time, shape ``(k, n)``.
-
-    The same as ``RoutingInstance.reachable`` of :func:`routing_instance` under the exact rule,
-    without the times between turbines.
-    """
-    reach = [_in_reach_of(station, farm, wind, dwell) for station in fleet.stations]
-    return np.stack(reach)
-
-
 def round_trips(
     d: NDArray[np.float64], wind: Wind, uav: Uav, dwell: NDArray[np.float64] | float
 ) -> NDArray[np.float64]:
@@ -75,14 +65,6 @@ def round_trips(
     )
     times: NDArray[np.float64] = out + dwell + back
     return times
-
-
-def _in_reach_of(
-    station: Station, farm: Farm, wind: Wind, dwell: Sequence[float]
-) -> NDArray[np.bool_]:
-    d = farm.xy - (station.x, station.y)
-    reached = round_trips(d, wind, station.uav, np.asarray(dwell)) <= station.uav.t_max
-    return reached & flies(station.uav, wind)
 
 
 def _times(station: Station, farm: Farm, wind: Wind, rule: SpeedRule) -> NDArray[np.float64]:

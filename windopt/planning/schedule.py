@@ -95,7 +95,7 @@ def plan_schedule(
         if ahead is not None:
             found = ahead.carrying(np.clip(ahead.found()[step], reached.lower, reached.upper))
         else:
-            left = 0.0 if _stopped(results) else max(0.0, deadline - begin)
+            left = 0.0 if stopped(results) else max(0.0, deadline - begin)
             found = search(reached, time_limit=left / (len(forecast) - step), seed=seed)
             if method != "algorithm-1":
                 found = _worth_it(reached, present, found, pace.threshold)
@@ -193,5 +193,6 @@ def _unproved(found: Result[Floats], problem: YawProblem) -> Result[Floats]:
     return replace(found, status=status, bound=problem.bound)
 
 
-def _stopped(results: Sequence[Result[YawPlan]]) -> bool:
+def stopped(results: Sequence[Result[YawPlan]]) -> bool:
+    """Whether the user ended the search at one of these steps."""
     return any(result.status is Status.INTERRUPTED for result in results)

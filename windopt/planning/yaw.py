@@ -30,11 +30,10 @@ from windopt.heuristics.serial_refine import serial_refine
 from windopt.planning.turbine_yaw import GAP, present_misalignments
 from windopt.result import Result, Status
 from windopt.solving.farm_yaw import steer
+from windopt.solving.rotor_by_rotor import UNWAKED
 from windopt.wakes.farm import expected_yield, farm_power
 
 Floats = NDArray[np.float64]
-
-BOUND_SOURCE = "every turbine unwaked, facing the wind"
 
 
 class YawMethod(Protocol):
@@ -144,7 +143,7 @@ def judged_plan(
     gamma = problem.facing if found.solution is None else found.solution
     plan = _plan(farm, wind, problem, steering, gamma)
     bound = min(problem.bound, found.bound) if found.bound >= plan.power else problem.bound
-    source = found.bound_source if bound < problem.bound else BOUND_SOURCE
+    source = found.bound_source if bound < problem.bound else UNWAKED
     status, reason = found.status, found.reason
     if status in (Status.NO_SOLUTION, Status.INFEASIBLE):
         status = Status.FEASIBLE

@@ -25,9 +25,10 @@ from windopt.domain.yaw_problem import YawProblem
 from windopt.domain.yaw_table import YawTable
 from windopt.errors import InvalidInput
 from windopt.planning.turbine_yaw import GAP
-from windopt.planning.yaw import BOUND_SOURCE, DEFAULT_METHOD, curve_of, method_named
+from windopt.planning.yaw import DEFAULT_METHOD, curve_of, method_named
 from windopt.result import Result, Status
 from windopt.solving.farm_yaw import steer
+from windopt.solving.rotor_by_rotor import UNWAKED
 from windopt.wakes.farm import farm_power
 
 Floats = NDArray[np.float64]
@@ -102,17 +103,8 @@ def plan_yaw_table(
     v, theta = _axis("speeds", speeds, 0.0, 1e3), _axis("directions", directions, 0.0, 2 * pi)
     if len(v) * len(theta) > LARGEST:
         raise InvalidInput("yaw table", f"of at most {LARGEST} cells", len(v) * len(theta))
-    problems = [
-        yaw_problem(
-            farm,
-            Wind.from_met(speed, np.degrees(direction)),
-            steering,
-            curve_of,
-            air_density=air_density,
-        )
-        for direction in theta
-        for speed in v
-    ]
+    winds = [Wind.from_met(speed, np.degrees(direction)) for direction in theta for speed in v]
+    problems = [yaw_problem(farm, w, steering, curve_of, air_density=air_density) for w in winds]
     found: list[Result[NDArray[np.float64]]] = []
     for row in _solved(problems, len(v), method, effort):
         found += row
@@ -136,9 +128,10 @@ def plan_yaw_table(
         steering,
         air_density,
     )
-    objective, proved = float(power.mean()), float(bound.mean())
     status = _status({r.status for r in found}, optimal=bool((bound - power <= GAP * bound).all()))
-    return Result(status, table, objective, proved, perf_counter() - begin, BOUND_SOURCE)
+    closer = (r.bound_source for p, r, b in zip(problems, found, bound, strict=True) if b < p.bound)
+    objective, proved, source = float(power.mean()), float(bound.mean()), next(closer, UNWAKED)
+    return Result(status, table, objective, proved, perf_counter() - begin, source)
 
 
 def _axis(field: str, values: ArrayLike, low: float, high: float) -> Floats:

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from windopt.solving.exact.compiled import compiled
+from windopt.wakes.gaussian import ALPHA, BETA, K_A, K_B
 
 Floats = NDArray[np.float64]
 Places = NDArray[np.intp]
@@ -83,9 +84,9 @@ class Section(NamedTuple):
 def shed(gamma: float, C_T: float, turbulence: float) -> Shed:
     """Return the wake of a rotor; see :mod:`windopt.wakes.gaussian` for the equations."""
     cos = np.cos(gamma)
-    k = 0.38 * turbulence + 0.004
+    k = K_A * turbulence + K_B
     u_0, root = np.sqrt(1 - C_T), np.sqrt(1 - C_T * cos)
-    slowing = np.sqrt(2.0) * (4 * 0.58 * turbulence + 2 * 0.077 * (1 - u_0))
+    slowing = np.sqrt(2.0) * (4 * ALPHA * turbulence + 2 * BETA * (1 - u_0))
     theta = -0.3 * gamma / cos * (1 - root)
     sigma_z = 0.5 * np.sqrt(C_T * cos / (2 * (1 - root)) / (1 + u_0))
     C_0 = 1 - u_0

@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from windopt.solving.exact.compiled import compiled
+from windopt.wakes.gaussian import ALPHA, BETA, K_A, K_B
 
 PIECES = 3
 """Into how many pieces the intervals of turbulence and of thrust are cut."""
@@ -47,7 +48,7 @@ class Spread(NamedTuple):
 @compiled
 def near_wake(cos: float, root: float, u_0: float, turbulence: float) -> float:
     """Return where the near wake ends: rises with all but the turbulence."""
-    slowing = 4 * 0.58 * turbulence + 2 * 0.077 * (1 - u_0)
+    slowing = 4 * ALPHA * turbulence + 2 * BETA * (1 - u_0)
     x: float = cos * (1 + root) / (np.sqrt(2.0) * slowing)
     return x
 
@@ -67,8 +68,8 @@ def widths(
     u_high = np.sqrt(1 - box.C_low * cos_low)
     x_low = near_wake(cos_low, u_low, u_low, box.I_high)
     x_high = near_wake(cos_high, u_high, u_high, box.I_low)
-    grown_low = (0.38 * box.I_low + 0.004) * max(dx - x_high, 0.0)
-    grown_high = (0.38 * box.I_high + 0.004) * max(dx - x_low, 0.0)
+    grown_low = (K_A * box.I_low + K_B) * max(dx - x_high, 0.0)
+    grown_high = (K_A * box.I_high + K_B) * max(dx - x_low, 0.0)
     ramp_low, ramp_high = min(dx / x_high, 1.0), min(dx / x_low, 1.0)
     start_low = 0.501 * np.sqrt(box.C_low * cos_low / 2)
     start_high = 0.501 * np.sqrt(box.C_high * cos_high / 2)
@@ -111,7 +112,7 @@ def deflections(dx: float, box: Box, cos_low: float, cos_high: float) -> tuple[f
     theta_high = 0.3 * max(a, b) / cos_low * (1 - q_low)
     x_low = near_wake(cos_low, q_low, u_low, box.I_high)
     x_high = near_wake(cos_high, q_high, u_high, box.I_low)
-    k_low, k_high = 0.38 * box.I_low + 0.004, 0.38 * box.I_high + 0.004
+    k_low, k_high = K_A * box.I_low + K_B, K_A * box.I_high + K_B
     z_low = 0.5 * np.sqrt((1 + q_low) / (2 * (1 + u_high)))
     z_high = 0.5 * np.sqrt((1 + q_high) / (2 * (1 + u_low)))
 
