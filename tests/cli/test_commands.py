@@ -378,3 +378,11 @@ def test_a_choice_that_cannot_be_made_is_named(windopt, folder, options, sentenc
     code, _, err = windopt(*CHOICE, *options)
     assert code == 2
     assert sentence in err
+
+
+def test_an_interrupt_while_libraries_load_ends_quietly(windopt, monkeypatch):
+    def interrupted():
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("windopt.cli._run", interrupted)
+    assert windopt("--version") == (130, "", "")

@@ -189,6 +189,15 @@ def test_kriegers_flak_b_is_never_planned_below_its_optimum():
         assert result.bound <= 8349.05
 
 
+def test_an_exact_search_stopped_at_once_knows_no_less_than_a_heuristic():
+    site, placed = farm(40, extent=9000.0), fleet((3000.0, 3000.0), (6000.0, 6000.0))
+    known = plan_inspection(site, placed, EAST_WIND, method="algorithm-2")
+    stopped = plan_inspection(site, placed, EAST_WIND, method="exact", time_limit=0.0)
+    assert stopped.status is Status.FEASIBLE
+    assert stopped.bound >= known.bound - 1e-6
+    assert windopt.check(stopped).passed
+
+
 @pytest.mark.parametrize("method", ["time-flow", "route-indexed"])
 def test_a_gap_that_was_asked_for_is_recorded_and_kept(method):
     result = plan_inspection(farm(9), TWO, EAST_WIND, method=method, gap=0.3)

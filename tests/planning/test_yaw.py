@@ -38,7 +38,7 @@ def test_every_plan_passes_its_check(method, speed):
     assert result.found().power == result.objective
 
 
-@pytest.mark.parametrize("method", set(METHODS) - {"algorithm-1"})
+@pytest.mark.parametrize("method", sorted(set(METHODS) - {"algorithm-1"}))
 def test_steering_a_row_pays(method):
     result = plan_yaw(row(), Wind.from_met(8.0, 272.0), method=method)
     assert result.found().gain > 0.2

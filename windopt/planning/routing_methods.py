@@ -14,6 +14,7 @@ from formulations.time_flow import TimeFlow, time_flow
 from windopt.domain.routing import Route, RoutingInstance
 from windopt.heuristics.algorithm_2 import algorithm_2
 from windopt.heuristics.baseline import baseline
+from windopt.heuristics.relaxation import NAME, least_total_time
 from windopt.heuristics.splitting import split_by_rule
 from windopt.planning.search_options import SearchOptions
 from windopt.result import Result, Status
@@ -26,6 +27,8 @@ HEAD_START = 0.2
 """Share of the time limit that Algorithm 2 may use before a formulation begins."""
 
 TOO_LARGE = "To build the program would take too much of the time; this is the plan to begin with."
+
+COMPILED = "Compiling the method took part of the time, as on its first use on a machine."
 
 ROUNDING = 1e-9
 """Seconds by which two sums of the same legs may differ."""
@@ -173,7 +176,9 @@ def route_indexed_program(
 def _exact(instance: RoutingInstance, options: SearchOptions) -> Result[Routes]:
     """Solve by column generation, whose compiled loops take a moment to load."""
     from windopt.solving.column_generation import column_generation
+    from windopt.solving.exact.readiness import is_compiled
 
+    compiled = is_compiled()
     found = column_generation(
         instance,
         time_limit=options.time_limit,
@@ -183,7 +188,19 @@ def _exact(instance: RoutingInstance, options: SearchOptions) -> Result[Routes]:
         memory=options.memory,
         progress=options.progress,
     )
+    if found.status in (Status.FEASIBLE, Status.INTERRUPTED):
+        found = _bounded(found, instance)
+    if found.status is Status.FEASIBLE and not compiled:
+        found = replace(found, reason=f"{found.reason} {COMPILED}")
     return replace(found, asked_gap=options.gap)
+
+
+def _bounded(found: Result[Routes], instance: RoutingInstance) -> Result[Routes]:
+    """Return a result with the bound of the heuristics where a search has not come as far."""
+    if instance.prize is not None:
+        return found
+    bound = least_total_time(instance)
+    return found if bound <= found.bound else replace(found, bound=bound, bound_source=NAME)
 
 
 METHODS: dict[str, RoutingMethod] = {
