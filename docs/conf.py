@@ -19,7 +19,7 @@ from typer.main import get_command
 from typer.testing import CliRunner
 
 import windopt
-from windopt.cli import app as windopt_app
+from windopt.cli.app import app as windopt_app
 
 sys.path.insert(0, str(Path(__file__).parents[1]))  # the benchmarks are not installed
 matplotlib.use("agg")

@@ -10,7 +10,7 @@ import matplotlib
 import pytest
 from typer.testing import CliRunner
 
-from windopt.cli import app
+from windopt.cli.app import app
 
 DOCS = Path(__file__).parents[1] / "docs"
 PAGES = sorted(
