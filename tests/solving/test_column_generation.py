@@ -39,8 +39,9 @@ def test_optimum_equals_enumeration(small, seed):
 
 
 @pytest.mark.slow
-def test_optimum_equals_enumeration_on_many_more(small):
-    for seed in range(1000, 2000):
+@pytest.mark.parametrize("block", range(2))
+def test_optimum_equals_enumeration_on_many_more(small, block):
+    for seed in range(1000 * (block + 1), 1000 * (block + 2)):
         instance = small.random_instance(seed)
         best = small.optimum(instance)
         result = column_generation(instance)
