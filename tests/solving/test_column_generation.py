@@ -128,9 +128,9 @@ def test_no_time_at_all_still_gives_a_plan_and_a_bound():
 def test_an_interrupt_returns_what_is_known():
     instance = grid(14, 6000.0)
     Timer(1.0, signal.raise_signal, [signal.SIGINT]).start()
-    result = column_generation(instance, time_limit=120.0)
+    result = column_generation(instance, time_limit=30.0)
     assert result.status is Status.INTERRUPTED
-    assert result.runtime < 60.0
+    assert result.runtime < 5.0
     assert 0 < result.bound < result.objective
     duration_is_kept(instance, result.solution)
 
