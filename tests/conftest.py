@@ -1,4 +1,6 @@
-"""Farms for wake steering, shared by the tests of its formulation, its solvers and heuristics."""
+"""Ctrl-C as at a terminal, and farms for wake steering that several rooms' tests share."""
+
+import signal
 
 import numpy as np
 import pytest
@@ -13,6 +15,11 @@ CURVE = PowerCurve(
     (0.95, 0.88, 0.82, 0.79, 0.78, 0.78, 0.78, 0.77, 0.70, 0.55, 0.08),
 )
 WIDER = PowerCurve((3.0, 7.0, 11.0, 25.0), (1e5, 2.6e6, 8e6, 8e6), (0.8, 0.8, 0.7, 0.1))
+
+
+def pytest_configure():
+    """Let Ctrl-C be heard: a shell lets what it runs in the background ignore it."""
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 def steered(xy, *, speed=8.0, direction=270.0, unlike=False, **options):
