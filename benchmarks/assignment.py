@@ -5,10 +5,11 @@ both. Each instance is solved both ways by the exact method, and both plans are 
 """
 
 import argparse
-import csv
 from collections.abc import Iterator, Sequence
+from itertools import chain
 from pathlib import Path
 
+from benchmarks.csv_table import tabulate
 from windopt.domain.farm import Farm
 from windopt.domain.plan import InspectionPlan
 from windopt.domain.wind import Wind
@@ -60,14 +61,9 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--time-limit", type=float, default=120.0, help="s")
     parser.add_argument("--out", type=Path, help="a CSV file")
     chosen = parser.parse_args(arguments)
-    table = [list(HEADER)]
     wind = Wind.from_met(chosen.wind_speed, chosen.wind_direction)
-    for row in rows(chosen.instances or INSTANCES, wind, chosen.time_limit):
-        table.append(row)
-        print("  ".join(row), flush=True)
-    if chosen.out:
-        with chosen.out.open("w", newline="", encoding="utf-8") as file:
-            csv.writer(file, lineterminator="\n").writerows(table)
+    found = rows(chosen.instances or INSTANCES, wind, chosen.time_limit)
+    tabulate(chain([HEADER], found), chosen.out)
 
 
 if __name__ == "__main__":

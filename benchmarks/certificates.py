@@ -5,12 +5,12 @@ then verified, times of processors counted. The instances are those of the routi
 """
 
 import argparse
-import csv
 from collections.abc import Iterator, Sequence
-from itertools import pairwise
+from itertools import chain, pairwise
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+from benchmarks.csv_table import tabulate
 from benchmarks.inspections import Inspection
 from benchmarks.processor import processor_time
 from windopt import certify, check
@@ -49,13 +49,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--time-limit", type=float, default=120.0)
     parser.add_argument("--out", type=Path, help="a CSV file for the table, beside printing it")
     chosen = parser.parse_args(arguments)
-    rows: list[tuple[str, ...]] = [HEADER]
-    for row in measured(chosen.farms, chosen.time_limit):
-        rows.append(row)
-        print("  ".join(row), flush=True)
-    if chosen.out:
-        with chosen.out.open("w", newline="") as file:
-            csv.writer(file, lineterminator="\n").writerows(rows)
+    tabulate(chain([HEADER], measured(chosen.farms, chosen.time_limit)), chosen.out)
 
 
 if __name__ == "__main__":

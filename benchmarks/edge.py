@@ -8,15 +8,16 @@ so.
 """
 
 import argparse
-import csv
 import time
 from collections.abc import Callable, Iterator, Sequence
+from itertools import chain
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
 
+from benchmarks.csv_table import tabulate
 from windopt.forecasting.calibration import Calibration
 from windopt.forecasting.integer_network import IntegerNetwork
 from windopt.forecasting.model import Model, Scaling
@@ -30,6 +31,7 @@ from windopt.forecasting.windows import HISTORY, HORIZON
 STEP = np.timedelta64(5, "m")
 STEPS, AHEAD = 24, 8
 REPEATS = 2000
+HEADER = "network", "microseconds", "bytes"
 Run = Callable[[Single], Any]
 
 
@@ -209,13 +211,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser = argparse.ArgumentParser(description="Time and size of the network on small machines.")
     parser.add_argument("--out", type=Path, help="a CSV file for the table, beside printing it")
     chosen = parser.parse_args(arguments)
-    rows = [("network", "microseconds", "bytes")]
-    for name, time_taken, size in measured():
-        rows.append((name, f"{time_taken:.0f}" if time_taken else "", str(size)))
-        print("  ".join(rows[-1]), flush=True)
-    if chosen.out:
-        with chosen.out.open("w", newline="") as file:
-            csv.writer(file, lineterminator="\n").writerows(rows)
+    found = ((name, f"{us:.0f}" if us else "", size) for name, us, size in measured())
+    tabulate(chain([HEADER], found), chosen.out)
 
 
 if __name__ == "__main__":

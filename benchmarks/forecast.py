@@ -11,7 +11,6 @@ forecasts from one-hour means, its hour ahead, on the same truth.
 """
 
 import argparse
-import csv
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from itertools import chain
@@ -20,6 +19,7 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from benchmarks import edge
+from benchmarks.csv_table import tabulate
 from windopt.domain.wind import WindSeries
 from windopt.forecasting.autoregression import LinearAutoregression
 from windopt.forecasting.averaging import averaged
@@ -150,18 +150,12 @@ def main(arguments: Sequence[str] | None = None) -> None:
     series = WindSeries.read(chosen.file)
     print(f"The paper's data set is not public; {series.source or chosen.file} is another.")
     published = [(f"the paper's data: {name}", "", "", "", *of, "") for name, of in PAPER.items()]
-    found: list[Row] = []
     with TemporaryDirectory() as kept:
         folder = Path(kept)
         compared = recipes(chosen.bits, rivals=chosen.rivals)
         tables = by_recipe(series, compared, chosen.seeds, folder), by_source(series, folder)
-        for row in chain([HEADER], published, *tables):
-            found.append(row)
-            print("  ".join(map(str, row)), flush=True)
+        tabulate(chain([HEADER], published, *tables), chosen.out)
     edge.main([])
-    if chosen.out:
-        with chosen.out.open("w", newline="") as file:
-            csv.writer(file, lineterminator="\n").writerows(found)
 
 
 if __name__ == "__main__":

@@ -5,11 +5,12 @@ turbines whose coordinate system is known, and writes the table that the documen
 """
 
 import argparse
-import csv
 from collections.abc import Iterator
+from itertools import chain
 from pathlib import Path
 from time import process_time
 
+from benchmarks.csv_table import tabulate
 from windopt.domain.farm import Farm
 from windopt.io.optiwindnet import optiwindnet_farm, optiwindnet_sizes
 from windopt.planning.station_comparison import k_means_beside, placement
@@ -62,17 +63,12 @@ def row(farm: Farm, dwell: float) -> tuple[str, ...]:
 
 
 def main() -> None:
-    """Write the table."""
+    """Print the table, and write it."""
     parser = argparse.ArgumentParser(prog="benchmarks.placements", description=__doc__)
     parser.add_argument("--dwell", type=float, default=0.0, help="s")
     parser.add_argument("--out", type=Path, default=Path("docs/how_to/stations.csv"))
     chosen = parser.parse_args()
-    with chosen.out.open("w", newline="", encoding="utf-8") as file:
-        table = csv.writer(file, lineterminator="\n")
-        table.writerow(HEADER)
-        for cells in rows(chosen.dwell):
-            table.writerow(cells)
-            file.flush()
+    tabulate(chain([HEADER], rows(chosen.dwell)), chosen.out)
 
 
 if __name__ == "__main__":
