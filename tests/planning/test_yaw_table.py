@@ -11,7 +11,7 @@ from windopt.errors import InvalidInput
 from windopt.io.floris import library_turbine
 from windopt.planning import yaw
 from windopt.planning.yaw import plan_yaw
-from windopt.planning.yaw_table import Effort, plan_yaw_table
+from windopt.planning.yaw_table import TableOptions, plan_yaw_table
 from windopt.result import Result, Status
 
 NREL = library_turbine("nrel_5MW")
@@ -47,7 +47,11 @@ def test_a_cell_takes_a_neighbours_answer_where_it_is_better(monkeypatch):
 def test_two_processors_tabulate_what_one_does():
     one, two = (
         plan_yaw_table(
-            FARM, [8.0], DIRECTIONS, steering=Steering(direction_std=0.05), effort=Effort(jobs=n)
+            FARM,
+            [8.0],
+            DIRECTIONS,
+            steering=Steering(direction_std=0.05),
+            options=TableOptions(jobs=n),
         )
         for n in (1, 2)
     )
@@ -56,7 +60,7 @@ def test_two_processors_tabulate_what_one_does():
 
 
 def test_no_time_leaves_the_rotors_facing_the_wind():
-    result = plan_yaw_table(FARM, [8.0], DIRECTIONS, effort=Effort(time_limit=0.0))
+    result = plan_yaw_table(FARM, [8.0], DIRECTIONS, options=TableOptions(time_limit=0.0))
     assert result.status is Status.FEASIBLE
     assert not result.found().yaw.any()
     assert result.found().gain == 0.0

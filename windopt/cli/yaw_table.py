@@ -17,7 +17,7 @@ from windopt.errors import InvalidInput
 from windopt.io.whole_files import require_absent
 from windopt.io.yaw_tables import require_table_name, write_yaw_table
 from windopt.planning.yaw import DEFAULT_METHOD
-from windopt.planning.yaw_table import LARGEST, Effort, plan_yaw_table
+from windopt.planning.yaw_table import LARGEST, TableOptions, plan_yaw_table
 from windopt.result import Status
 
 RANGE = "numbers with commas, or FROM:TO:STEP with TO included"
@@ -60,7 +60,7 @@ def yaw_table(
             method=method,
             steering=steered.steering,
             air_density=air_density,
-            effort=Effort(jobs, time_limit, seed),
+            options=TableOptions(jobs, time_limit, seed),
             done=done,
         )
     table = result.found()

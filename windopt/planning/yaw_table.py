@@ -38,7 +38,7 @@ LARGEST = 1_000_000  # cells
 
 
 @dataclass(frozen=True)
-class Effort:
+class TableOptions:
     """How a table is solved.
 
     Parameters
@@ -71,7 +71,7 @@ def plan_yaw_table(
     method: str = DEFAULT_METHOD,
     steering: Steering | None = None,
     air_density: float = STANDARD_AIR_DENSITY,
-    effort: Effort | None = None,
+    options: TableOptions | None = None,
     done: Done | None = None,
 ) -> Result[YawTable]:
     """Tabulate the misalignments with which a farm delivers the most power.
@@ -86,7 +86,7 @@ def plan_yaw_table(
         Where the wind blows from, clockwise from north [rad], increasing within one turn.
     method, steering, air_density
         As in :func:`windopt.plan_yaw`; with a scatter of directions the table is robust to it.
-    effort
+    options
         Processors, time limit and seed.
     done
         Called with the number of cells solved and of all cells.
@@ -97,7 +97,7 @@ def plan_yaw_table(
         Its objective and bound are means over the cells [W].
     """
     begin = perf_counter()
-    effort, steering = effort or Effort(), steering or Steering()
+    options, steering = options or TableOptions(), steering or Steering()
     method_named(method)
     require_positive("air_density", air_density)
     v, theta = _axis("speeds", speeds, 0.0, 1e3), _axis("directions", directions, 0.0, 2 * pi)
@@ -106,7 +106,7 @@ def plan_yaw_table(
     winds = [Wind.from_met(speed, np.degrees(direction)) for direction in theta for speed in v]
     problems = [yaw_problem(farm, w, steering, curve_of, air_density=air_density) for w in winds]
     found: list[Result[NDArray[np.float64]]] = []
-    for row in _solved(problems, len(v), method, effort):
+    for row in _solved(problems, len(v), method, options):
         found += row
         if done is not None:
             done(len(found), len(problems))
@@ -143,18 +143,18 @@ def _axis(field: str, values: ArrayLike, low: float, high: float) -> Floats:
 
 
 def _solved(
-    problems: list[YawProblem], V: int, method: str, effort: Effort
+    problems: list[YawProblem], V: int, method: str, options: TableOptions
 ) -> Iterator[list[Result[NDArray[np.float64]]]]:
     """Yield the answers of each direction, in order: one for each of its V speeds."""
-    deadline = time() + effort.time_limit  # the clock that processes share
+    deadline = time() + options.time_limit  # the clock that processes share
     stopped = False
 
     def tasks() -> Iterator[Any]:
         for first in range(0, len(problems), V):
             until = -inf if stopped else deadline
-            yield delayed(_row)(problems[first : first + V], method, until, effort.seed)
+            yield delayed(_row)(problems[first : first + V], method, until, options.seed)
 
-    for row in Parallel(n_jobs=effort.jobs, return_as="generator")(tasks()):
+    for row in Parallel(n_jobs=options.jobs, return_as="generator")(tasks()):
         stopped = stopped or any(result.status is Status.INTERRUPTED for result in row)
         yield row
 
