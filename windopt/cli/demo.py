@@ -21,7 +21,7 @@ FOLDER = Path("windopt-demo")
 
 def demo(
     method: opt.RoutingMethod = DEFAULT_METHOD,
-    time_limit: opt.TimeLimit = 30.0,
+    time_limit: opt.TimeLimit = 60.0,
     seed: opt.Seed = 0,
     json: opt.Json = False,
     out: opt.Out = FOLDER,

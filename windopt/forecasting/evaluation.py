@@ -90,12 +90,13 @@ def evaluate(
         if forecasters
         else (Persistence.history, Persistence.horizon)
     )
+    windows(after, history=history, horizon=horizon)  # Without one there is nothing to score.
     rivals, notes = [], list(after.notes)
     for rival in LinearAutoregression(history, horizon), ConformalPersistence(history, horizon):
         try:
             rivals.append(rival.fit(before))
-        except InvalidInput as too_little:
-            notes.append(f"Without {rival.name}. {too_little}")
+        except InvalidInput as few:
+            notes.append(f"Without {rival.name}: expected {few.field} {few.expected}.")
     return backtest([*rivals, *forecasters], replace(after, notes=tuple(notes)))
 
 
