@@ -119,9 +119,23 @@ def test_lists_that_are_too_long_at_first_are_made_again(monkeypatch):
 
 def test_no_time_at_all_still_gives_a_plan_and_a_bound():
     instance = grid(4, 900.0)
+    best = column_generation(instance)
     result = column_generation(instance, time_limit=0.0)
     assert result.status is Status.FEASIBLE
-    assert 0 < result.bound < result.objective
+    assert 0 < result.bound <= best.objective <= result.objective < 1.2 * best.objective
+    duration_is_kept(instance, result.solution)
+
+
+def test_an_interrupt_in_the_first_moment_returns_a_plan_worth_flying(monkeypatch):
+    def interrupted(*_):
+        raise KeyboardInterrupt
+
+    instance = grid(5, 800.0)
+    best = column_generation(instance)
+    monkeypatch.setattr("windopt.solving.column_generation.improve", interrupted)
+    result = column_generation(instance)
+    assert result.status is Status.INTERRUPTED
+    assert 0 < result.bound <= best.objective <= result.objective < 1.2 * best.objective
     duration_is_kept(instance, result.solution)
 
 

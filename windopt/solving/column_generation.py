@@ -22,7 +22,8 @@ from windopt.solving.exact.closing import close
 from windopt.solving.exact.local_search import improve
 from windopt.solving.exact.pricing import LabelsOverflow
 from windopt.solving.exact.relaxation import Relaxation
-from windopt.solving.exact.search import Search, alone
+from windopt.solving.exact.savings import savings
+from windopt.solving.exact.search import Search
 
 EFFORT, MORE = 300_000, 1.5
 """Half flights that the first attempt to list all flights may hold, and the growth of that."""
@@ -90,7 +91,7 @@ def column_generation(
 
 def _begin(search: Search, start: tuple[Route, ...] | None, seed: int) -> None:
     """Find a good plan."""
-    search.offer(alone(search.networks))
+    search.offer(savings(search.networks, search.counts[:-1, 1], search.prize))
     search.offer(())
     if start is not None:
         search.offer([(route.station, route.turbines) for route in start])
