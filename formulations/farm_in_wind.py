@@ -61,6 +61,12 @@ class FarmInWind:
         alike = np.ptp(self.D) == 0 and np.ptp(self.H) == 0
         return np.array([0.0, 0.25] if alike else [0.0, 0.25, -0.25])
 
+    @property
+    def rated_powers(self) -> Floats:
+        """The most that each turbine delivers [W], shape ``(n,)``."""
+        rated: Floats = np.array([max(curve.powers) for curve in self.curves])[self.curve_of]
+        return rated
+
     def shares(self) -> Floats:
         """Return the weight of every point in a rotor's mean cube of the wind, shape ``(P, n)``."""
         rows = np.array([0.0, 0.25, -0.25])

@@ -3,13 +3,14 @@ r"""Farm-wide yaw: turn some rotors aside so that their wakes miss the others.
 :math:`\gamma_{it}` is the misalignment of turbine i in step t. In each wind k of the step it feels
 the wind :math:`u_k U_{ik}` and the turbulence :math:`I_{ik}`, and makes a wake by its thrust
 :math:`C_{ik}`; :math:`W_{pik}` is the deficit that all wakes together leave at point p of its
-rotor, a share :math:`c_p` of it, and :math:`E_k` the farm's power:
+rotor, a share :math:`c_p` of it; :math:`p_{ik}` is its power and :math:`E_k` that of the farm:
 
 .. math::
 
     \max \quad & \sum_k w_k E_k                                                       \tag{1} \\
-    \text{s.t.} \quad & E_k \le \sum_i r_{ik} P_i\bigl(u_k U_{ik} \cos^{p/3} \gamma_{it}\bigr),
-        \quad E_k \le E^{max}                                                         \tag{2} \\
+    \text{s.t.} \quad & E_k \le \sum_i p_{ik}, \quad E_k \le E^{max}, \quad
+        p_{ik} \le r_{ik} P_i\bigl(u_k U_{ik} \cos^{p/3} \gamma_{it}\bigr), \quad
+        p_{ik} \le \overline p_i                                                      \tag{2} \\
       & U_{ik}^3 = \sum_p c_p (1 - W_{pik})^3                                         \tag{3} \\
       & W_{pik}^2 + 2 \varepsilon W_{pik} = \sum_j d_{pji}^2(\gamma_{jt}, C_{jk}, I_{jk}) \tag{4} \\
       & C_{ik} = r_{ik} \, C_T(u_k U_{ik}) \cos\gamma_{it}                            \tag{5} \\
@@ -25,7 +26,11 @@ turns by :math:`\Delta\theta_t` and a nacelle by at most :math:`\dot\gamma`.
 
 A turbine may be derated to a share :math:`r_{ik}` of its power, and its thrust falls by as much;
 unless that is asked for, the share is 1, and a farm above its cap is curtailed without regard to
-its wakes. With derating (2) is an equality, so that the set-points add up to what the grid takes.
+its wakes. With derating the first and third part of (2) are equalities, so that the set-points add
+up to what the grid takes.
+
+The rated power :math:`\overline p_i` is a bound, and below it :math:`P_i` goes on rising where the
+wind is stronger. The corner in between would stop a search in which many turbines stand at it.
 
 The wakes come one after the other, so U, W, C and I are functions of the yaws. They are variables
 all the same: eliminated, they would couple every turbine with all those upstream, whereas here each
@@ -123,8 +128,9 @@ def farm_yaw(
     objective = Family(
         rows.itself(), x.E[None], -farm.weights[None], np.zeros((1, K), dtype=np.intp)
     )  # (1)
+    derated = least < 1.0
     constraints = [
-        *_powers(farm, x, row, scale),  # (2)
+        *_powers(farm, x, row, scale, derated=derated),  # (2)
         *_means(farm, x, row),  # (3)
         *_deficits(farm, wakes, x, row),  # (4)
         *_thrusts(farm, x, row),  # (5)
@@ -132,14 +138,15 @@ def farm_yaw(
     ]
     m = next(row)
     lower_g, upper_g = np.zeros(m), np.zeros(m)
-    if least == 1.0:
-        lower_g[:K] = -inf
+    if not derated:
+        lower_g[: x.E.size + x.p.size] = -inf
     if turns is not None:
         constraints += _turns(x, turns, m)  # (8)
         most = np.full(x.gamma[1:].size, turns.most)
         lower_g, upper_g = np.append(lower_g, -most), np.append(upper_g, most)
 
-    lower_x, upper_x = _bounds(farm, wakes, x, cap / scale)
+    lower_x, upper_x = _bounds(farm, wakes, x)
+    upper_x[x.E], upper_x[x.p] = cap / scale, farm.rated_powers / scale  # (2)
     lower_x[x.gamma], upper_x[x.gamma] = bounds  # (7)
     lower_x[x.r], upper_x[x.r] = least, 1.0  # (9)
     program = SeparableProgram(objective, constraints, lower_x, upper_x, lower_g, upper_g)
@@ -155,7 +162,13 @@ class _Variables(NamedTuple):
     U: Places  # (K, n)
     r: Places  # (K, n)
     E: Places  # (K,)
+    p: Places  # (K, n)
     W: Places  # (P, K, n)
+
+    @property
+    def size(self) -> int:
+        """How many there are."""
+        return 1 + int(max(self.p.max(), self.W.max()))
 
     @property
     def waked(self) -> NDArray[np.bool_]:
@@ -167,13 +180,13 @@ class _Variables(NamedTuple):
 def _variables(farm: FarmInWind, wakes: Wakes) -> _Variables:
     P, K, n = wakes.W.shape
     place = count()
-    shapes = wakes.gamma.shape, (K, n), (K, n), (K, n), (K, n), (K,)
-    gamma, C, I, U, r, E = (_numbers(place, shape) for shape in shapes)  # noqa: E741
+    shapes = wakes.gamma.shape, (K, n), (K, n), (K, n), (K, n), (K,), (K, n)
+    gamma, C, I, U, r, E, p = (_numbers(place, shape) for shape in shapes)  # noqa: E741
     W = np.full((P, K, n), -1)
     waked = np.zeros((K, n), dtype=bool)
     waked[wakes.wind, wakes.target] = True
     W[:, waked] = _numbers(place, (P, int(waked.sum())))
-    return _Variables(gamma, C, I, U, r, E, W)
+    return _Variables(gamma, C, I, U, r, E, p, W)
 
 
 def _numbers(count: Iterator[int], shape: tuple[int, ...]) -> Places:
@@ -181,13 +194,19 @@ def _numbers(count: Iterator[int], shape: tuple[int, ...]) -> Places:
     return np.fromiter(count, dtype=np.intp, count=prod(shape)).reshape(shape)
 
 
-def _powers(farm: FarmInWind, x: _Variables, row: Iterator[int], scale: float) -> Iterator[Family]:
-    delivered = _numbers(row, x.E.shape)
-    yield Family(rows.itself(), x.E[None], np.ones((1, len(x.E))), delivered[None])
+def _powers(
+    farm: FarmInWind, x: _Variables, row: Iterator[int], scale: float, *, derated: bool
+) -> Iterator[Family]:
+    K, n = x.p.shape
+    of_farm, of_turbine = _numbers(row, (K,)), _numbers(row, (K, n))
+    yield Family(rows.itself(), x.E[None], np.ones((1, K)), of_farm[None])
+    shares = np.repeat(of_farm, n)[None]
+    yield Family(rows.itself(), x.p.reshape(1, -1), -np.ones((1, K * n)), shares)
     for c, k, i in _kinds(farm):
-        power = rows.power(farm.curve(c), farm.air_density, scale)
-        v = np.array([x.gamma[farm.steps[k], i], x.U[k, i], x.r[k, i]])
-        yield Family(power, v, farm.speeds[k][None], delivered[k][None])
+        curve = farm.curve(c) if derated else farm.curve(c).rising()
+        power = rows.power(curve, farm.air_density, scale)
+        v = np.array([x.p[k, i], x.gamma[farm.steps[k], i], x.U[k, i], x.r[k, i]])
+        yield Family(power, v, farm.speeds[k][None], of_turbine[k, i][None])
 
 
 def _means(farm: FarmInWind, x: _Variables, row: Iterator[int]) -> Iterator[Family]:
@@ -240,15 +259,13 @@ def _kinds(farm: FarmInWind) -> Iterator[tuple[int, Places, Places]]:
         yield c, k.ravel(), i.ravel()
 
 
-def _bounds(farm: FarmInWind, wakes: Wakes, x: _Variables, cap: float) -> tuple[Floats, Floats]:
-    """Return bounds that no wake reaches, but for those of the farm's cap and of what is fixed."""
-    size = 1 + max(x.E.max(), x.W.max())
-    lower, upper = np.full(size, -inf), np.full(size, inf)
+def _bounds(farm: FarmInWind, wakes: Wakes, x: _Variables) -> tuple[Floats, Floats]:
+    """Return bounds that no wake reaches, but for those of what is fixed."""
+    lower, upper = np.full(x.size, -inf), np.full(x.size, inf)
     lower[x.C], upper[x.C] = 0.0, 0.99995
     lower[x.I] = farm.turbulence
     lower[x.U] = 0.01
     lower[x.W[:, x.waked]], upper[x.W[:, x.waked]] = 0.0, 0.99
-    upper[x.E] = cap
     free, calm = ~x.waked, wakes.main < 0
     lower[x.U[free]] = upper[x.U[free]] = wakes.U[free]
     lower[x.I[calm]] = upper[x.I[calm]] = farm.turbulence
@@ -256,9 +273,9 @@ def _bounds(farm: FarmInWind, wakes: Wakes, x: _Variables, cap: float) -> tuple[
 
 
 def _start(wakes: Wakes, x: _Variables, cap: float, scale: float) -> Floats:
-    start = np.empty(1 + max(x.E.max(), x.W.max()))
+    start = np.empty(x.size)
     start[x.gamma], start[x.C], start[x.I], start[x.U] = wakes.gamma, wakes.C_T, wakes.I, wakes.U
-    start[x.r] = 1.0
+    start[x.r], start[x.p] = 1.0, wakes.powers / scale
     start[x.E] = np.minimum(wakes.powers.sum(axis=1), cap) / scale
     start[x.W[:, x.waked]] = wakes.W[:, x.waked]
     return start

@@ -17,13 +17,13 @@ EPSILON = 5e-5
 
 @lru_cache(maxsize=64)
 def power(curve: Curve, air_density: float, scale: float) -> ca.Function:
-    """Return a turbine's part in (2), as a fraction of ``scale``."""
-    v, u = ca.SX.sym("v", 3), ca.SX.sym("u")
-    gamma, U, r = ca.vertsplit(v)
+    """Return a turbine's row of (2), as a fraction of ``scale``."""
+    v, u = ca.SX.sym("v", 4), ca.SX.sym("u")
+    p, gamma, U, r = ca.vertsplit(v)
     density = (air_density / curve.air_density) ** (1 / 3)
     effective = density * u * U * ca.cos(gamma) ** (curve.yaw_exponent / 3)
     P = linear_pieces(effective, curve.speeds, [p / scale for p in curve.powers], CORNER)
-    return ca.Function("power", [v, u], [-r * P])
+    return ca.Function("power", [v, u], [p - r * P])
 
 
 @cache

@@ -6,6 +6,7 @@ import pytest
 
 from formulations.farm_wakes import wakes
 from formulations.farm_yaw import Turns, farm_yaw
+from formulations.power_curve import Curve
 from windopt.solving.farm_yaw import FROM_AFAR, in_wind
 from windopt.solving.separable import prepared, search
 from windopt.wakes.farm import farm_power, flow
@@ -93,6 +94,13 @@ def test_the_rated_power_and_the_cap_are_kept(steered, row):
     _, capped = optimum(problem, 0.1, cap=0.8 * free)
     assert free <= 4 * 5e6 * (1 + 1e-9)
     assert capped == pytest.approx(0.8 * free, rel=1e-6)
+
+
+def test_a_curve_goes_on_rising_only_where_its_power_stays_at_rated():
+    kept = Curve((3.0, 5.0, 7.0, 9.0), (0.0, 1.0, 3.0, 3.0), (0.8,) * 4, 3.0, 1.225)
+    assert kept.rising().powers == (0.0, 1.0, 3.0)
+    falling = kept._replace(powers=(0.0, 1.0, 3.0, 2.0))
+    assert falling.rising() == falling
 
 
 def test_derated_turbines_add_up_to_the_cap(steered, row):
