@@ -27,6 +27,17 @@ def test_it_never_does_worse_than_facing_the_wind(steered, scattered):
     assert serial_refine(problem).objective >= farm_power(problem, np.zeros(9))
 
 
+def test_ctrl_c_keeps_the_rotors_turned_so_far(steered, row, monkeypatch):
+    def stopped_after_one(sweep, *, deadline):
+        sweep.turn(0, 0.3)
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("windopt.heuristics.serial_refine.refine", stopped_after_one)
+    result = serial_refine(steered(row(3), direction=272.0))
+    assert result.status is Status.INTERRUPTED
+    assert result.found() == pytest.approx([0.3, 0.0, 0.0])
+
+
 @pytest.mark.parametrize("direction", [272.0, 275.0])
 def test_it_finds_what_floris_finds(steered, direction):
     floris = pytest.importorskip("floris")

@@ -15,6 +15,7 @@ from windopt.errors import InvalidInput
 from windopt.io.floris import library_turbine
 from windopt.planning.yaw import METHODS, plan_yaw
 from windopt.result import Status
+from windopt.solving.yaw_bound import BY_INTERVALS
 
 NREL = library_turbine("nrel_5MW")
 WEST = Wind.from_met(8.0, 270.0)
@@ -53,6 +54,18 @@ def test_where_all_run_at_rated_power_facing_the_wind_is_proved_optimal(method):
     result = plan_yaw(row(spacing=10.0), Wind.from_met(20.0, 270.0), method=method)
     assert result.status is Status.OPTIMAL
     assert result.objective == pytest.approx(15e6)
+
+
+def test_the_bound_is_that_of_the_farm_and_not_of_the_method():
+    results = [plan_yaw(row(), WEST, method=method) for method in METHODS]
+    assert len({result.bound for result in results}) == 1
+    assert {result.bound_source for result in results} == {BY_INTERVALS}
+    assert results[0].bound < 0.9 * sum(p.maximum for p in results[0].found().set_points)
+
+
+def test_turbines_about_their_rated_power_are_steered_to_a_local_optimum():
+    result = plan_yaw(row(8, SG_8_167, spacing=7.0), Wind.from_met(13.0, 272.0))
+    assert result.status is Status.LOCALLY_OPTIMAL
 
 
 def test_the_papers_rule_faces_a_wind_below_rated_and_holds_in_one_above():

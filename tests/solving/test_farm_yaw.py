@@ -5,7 +5,7 @@ import pytest
 
 from windopt.domain.yaw_problem import YawProblem
 from windopt.heuristics.serial_refine import serial_refine
-from windopt.result import Status
+from windopt.result import Result, Status
 from windopt.solving import farm_yaw
 from windopt.solving.farm_yaw import steer
 from windopt.wakes.farm import farm_power, turbine_powers
@@ -82,6 +82,12 @@ def test_an_ipopt_that_does_not_converge_is_said(steered, row, monkeypatch):
     assert result.status is Status.FEASIBLE
     assert result.reason.startswith("Ipopt did not converge: The limit of iterations was reached.")
     assert result.objective >= serial_refine(problem).objective
+
+
+def test_only_what_lies_near_a_converged_point_is_called_locally_optimal():
+    end = Result(Status.LOCALLY_OPTIMAL, np.full(3, 0.3), 0.0, 0.0, 0.0)
+    assert farm_yaw.verdict(np.full(3, 0.25), [end]) == (Status.LOCALLY_OPTIMAL, farm_yaw.NEARBY)
+    assert farm_yaw.verdict(np.zeros(3), [end]) == (Status.FEASIBLE, farm_yaw.FAR)
 
 
 def test_a_proof_needs_no_reason(steered, row):

@@ -20,6 +20,9 @@ of 3 by 3 points."""
 SHEAR = 0.12
 """FLORIS's default exponent of the wind's growth with height [-]."""
 
+GAP = 1e-6
+"""Relative distance to its bound at which a set-point counts as proved optimal."""
+
 STRONGEST = 1000.0
 """No wind is as strong [m/s]; beyond, cubes of it might overflow."""
 

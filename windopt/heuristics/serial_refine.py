@@ -17,8 +17,9 @@ from numpy.typing import NDArray
 
 from windopt.domain.yaw_problem import YawProblem
 from windopt.result import Result, Status
-from windopt.solving.rotor_by_rotor import UNWAKED, refine
+from windopt.solving.rotor_by_rotor import refine
 from windopt.solving.wake_sweep import Sweep
+from windopt.solving.yaw_bound import UNWAKED
 from windopt.wakes.farm import farm_power
 
 
@@ -32,7 +33,7 @@ def serial_refine(
     problem
         The farm and its winds.
     time_limit
-        Wall-clock limit [s]; rotors not reached in time stay as they are.
+        Wall-clock limit [s]; rotors not reached by then, or by Ctrl-C, stay as they are.
     seed
         Ignored: nothing is drawn at random.
 
@@ -41,7 +42,11 @@ def serial_refine(
     Misalignments [rad], shape ``(n,)``.
     """
     begin = perf_counter()
-    yaw = refine(Sweep(problem, problem.facing), deadline=begin + time_limit)
-    power = float(farm_power(problem, yaw))
+    sweep, status = Sweep(problem, problem.facing), Status.FEASIBLE
+    try:
+        refine(sweep, deadline=begin + time_limit)
+    except KeyboardInterrupt:
+        status = Status.INTERRUPTED
+    power = float(farm_power(problem, sweep.yaw))
     runtime = perf_counter() - begin
-    return Result(Status.FEASIBLE, yaw, power, problem.bound, runtime, UNWAKED)
+    return Result(status, sweep.yaw, power, problem.bound, runtime, UNWAKED)

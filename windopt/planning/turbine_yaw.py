@@ -25,6 +25,7 @@ from windopt.domain.farm import Farm
 from windopt.domain.plan import SetPoint, YawPlan
 from windopt.domain.turbine import TurbineType, require_positive
 from windopt.domain.wind import Wind
+from windopt.domain.yaw_problem import GAP
 from windopt.errors import InvalidInput
 from windopt.heuristics.algorithm_1 import algorithm_1, exceeds_rated
 from windopt.result import Result, Status
@@ -35,8 +36,6 @@ POWER_COEFFICIENTS = tuple(MODELS)
 """C_p models by the names they are chosen by."""
 AIR_DENSITY = 1.065
 """The paper's air density [kg/m3]."""
-GAP = 1e-6
-"""Relative distance to its bound at which a plan counts as proved optimal."""
 FURTHER_STARTS = 8
 FEATHERED = 90.0  # deg
 # CasADi's programs keep their last solution, and its references are not counted safely.

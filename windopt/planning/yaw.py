@@ -3,7 +3,7 @@
 Every method takes the same problem and is judged by the exact model of :mod:`windopt.wakes`. No
 misalignment lets a turbine deliver more than it does unwaked, so the sum of that over the farm is a
 proven bound; it is reached where the wind is strong enough for all to run at rated power. Elsewhere
-:mod:`windopt.solving.yaw_bound` comes closer.
+:mod:`windopt.solving.yaw_bound` comes closer, whatever the method.
 """
 
 from collections.abc import Sequence
@@ -23,14 +23,14 @@ from windopt.domain.power_curve import STANDARD_AIR_DENSITY, PowerCurve
 from windopt.domain.steering import Steering, yaw_problem
 from windopt.domain.turbine import TurbineType, require_positive
 from windopt.domain.wind import Wind
-from windopt.domain.yaw_problem import YawProblem
+from windopt.domain.yaw_problem import GAP, YawProblem
 from windopt.errors import FailedCheck, InvalidInput
 from windopt.heuristics.algorithm_1 import face_or_hold
 from windopt.heuristics.serial_refine import serial_refine
-from windopt.planning.turbine_yaw import GAP, present_misalignments
+from windopt.planning.turbine_yaw import present_misalignments
 from windopt.result import Result, Status
 from windopt.solving.farm_yaw import steer
-from windopt.solving.rotor_by_rotor import UNWAKED
+from windopt.solving.yaw_bound import UNWAKED, closest_bound
 from windopt.wakes.farm import expected_yield, farm_power
 
 Floats = NDArray[np.float64]
@@ -117,10 +117,34 @@ def plan_yaw(
     present = np.array(present_misalignments(len(farm), wind, nacelle))
     problem = yaw_problem(farm, wind, steering, curve_of, air_density=air_density, present=present)
     found = search(problem, time_limit=time_limit, seed=seed)
-    if method != "algorithm-1":
-        found = _no_worse_than_facing(problem, found)
+    found = closely_bounded(problem, found, time_limit=begin + time_limit - perf_counter())
     result = judged_plan(farm, wind, problem, steering, found)
     return result.timed(perf_counter() - begin)
+
+
+def closely_bounded(
+    problem: YawProblem, found: Result[Floats], *, time_limit: float
+) -> Result[Floats]:
+    """Return what a method found with the closest bound, where the method did not look for it.
+
+    Parameters
+    ----------
+    problem
+        The farm's yaw problem, which alone decides the bound.
+    found
+        Misalignments [rad], and what is known of them.
+    time_limit
+        Time left [s]; the bound takes 0.1 s for 80 turbines in one wind, 0.6 s for 200.
+    """
+    proved = found.objective >= (1 - GAP) * problem.bound
+    stopped = found.status is Status.INTERRUPTED or time_limit <= 0
+    if proved or stopped or found.bound < problem.bound:
+        return found
+    try:
+        bound, source = closest_bound(problem)
+    except KeyboardInterrupt:
+        return replace(found, status=Status.INTERRUPTED)
+    return replace(found, bound=bound, bound_source=source)
 
 
 def judged_plan(
@@ -175,15 +199,6 @@ def problem_of(plan: YawPlan) -> YawProblem:
     if plan.steering is None:
         raise InvalidInput("plan", "to be made under wakes", "one of turbines by themselves")
     return yaw_problem(plan.farm, plan.wind, plan.steering, curve_of, air_density=plan.air_density)
-
-
-def _no_worse_than_facing(problem: YawProblem, found: Result[Floats]) -> Result[Floats]:
-    """Return what a method found, or facing the wind where that delivers more."""
-    if found.solution is not None:
-        facing, steered = farm_power(problem, np.array([problem.facing, found.solution]))
-        if steered >= facing:
-            return found
-    return replace(found, solution=problem.facing)
 
 
 def _plan(

@@ -21,14 +21,13 @@ from windopt.domain.power_curve import STANDARD_AIR_DENSITY
 from windopt.domain.steering import Steering, yaw_problem
 from windopt.domain.turbine import require_not_negative, require_positive
 from windopt.domain.wind import Wind
-from windopt.domain.yaw_problem import YawProblem
+from windopt.domain.yaw_problem import GAP, YawProblem
 from windopt.domain.yaw_table import YawTable
 from windopt.errors import InvalidInput
-from windopt.planning.turbine_yaw import GAP
-from windopt.planning.yaw import DEFAULT_METHOD, curve_of, method_named
+from windopt.planning.yaw import DEFAULT_METHOD, closely_bounded, curve_of, method_named
 from windopt.result import Result, Status
 from windopt.solving.farm_yaw import steer
-from windopt.solving.rotor_by_rotor import UNWAKED
+from windopt.solving.yaw_bound import UNWAKED
 from windopt.wakes.farm import farm_power
 
 Floats = NDArray[np.float64]
@@ -172,7 +171,8 @@ def _row(
             start = found[-1].solution
             found.append(steer(problem, time_limit=left, seed=seed, start=start))
         else:
-            found.append(method_named(method)(problem, time_limit=left, seed=seed))
+            result = method_named(method)(problem, time_limit=left, seed=seed)
+            found.append(closely_bounded(problem, result, time_limit=deadline - time()))
     return found
 
 

@@ -5,7 +5,8 @@ So the search goes from the coarse to the fine: rotor by rotor over their whole 
 (:mod:`windopt.solving.rotor_by_rotor`), then all rotors at once by Ipopt on the lifted program
 (:mod:`formulations.farm_yaw`), then rotor by rotor again within a few degrees. Small farms are
 searched from 5 degrees to either side too; from zero yaw no search starts, for in a wind along a
-row it satisfies the first-order conditions without being a maximum. What counts is the exact power.
+row it satisfies the first-order conditions without being a maximum. What counts is the exact power,
+and only misalignments near a point at which Ipopt converged are called locally optimal.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -20,12 +21,12 @@ from formulations import farm_yaw as lifted
 from formulations.farm_in_wind import FarmInWind
 from formulations.farm_wakes import wakes
 from formulations.power_curve import Curve
-from windopt.domain.yaw_problem import YawProblem
+from windopt.domain.yaw_problem import GAP, YawProblem
 from windopt.result import Result, Status
-from windopt.solving.rotor_by_rotor import UNWAKED, refine
+from windopt.solving.rotor_by_rotor import refine
 from windopt.solving.separable import prepared, search
 from windopt.solving.wake_sweep import Sweep
-from windopt.solving.yaw_bound import BY_INTERVALS, yaw_bound
+from windopt.solving.yaw_bound import UNWAKED, closest_bound
 from windopt.wakes.farm import farm_power
 
 Floats = NDArray[np.float64]
@@ -37,24 +38,21 @@ ASIDE = radians(5.0)
 """Yaw of the further starts."""
 
 FINE = radians(5.0)
-"""How far the last passes turn each rotor."""
-
-GAP = 1e-9
-"""Relative distance to its bound at which a set-point counts as proved optimal."""
+"""How far the last passes look to either side of each rotor."""
 
 FROM_AFAR: Mapping[str, float] = {"tol": 1e-6, "max_iter": 100}
 FROM_NEARBY = {
     **FROM_AFAR,
-    "max_iter": 50,
     "mu_init": 1e-4,
     "bound_push": 1e-4,
     "bound_frac": 1e-4,
 }
 """Options of Ipopt: a good start is not to be pushed away from its bounds."""
 
-AS_GOOD = (
-    "By the exact wakes no worse than a point where the program's first-order conditions hold."
+NEARBY = (
+    "Ipopt converged within 5 deg of these set-points, which by the exact wakes deliver no less."
 )
+FAR = "By the exact wakes these set-points deliver more than any point at which Ipopt converged."
 NOT_CONVERGED = (
     "Ipopt did not converge: {} Of where it ended and what was found rotor by rotor, these "
     "set-points deliver the most by the exact wakes."
@@ -81,8 +79,8 @@ def steer(
 
     Returns
     -------
-    Misalignments [rad], shape ``(n,)``: LOCALLY_OPTIMAL where Ipopt converged to a point that is no
-    better, OPTIMAL where they reach the bound.
+    Misalignments [rad], shape ``(n,)``: LOCALLY_OPTIMAL where Ipopt converged to a point near them
+    that is no better, OPTIMAL where they reach the bound.
     """
     begin = perf_counter()
     deadline = begin + time_limit
@@ -90,46 +88,57 @@ def steer(
     bound, source = problem.bound, UNWAKED
     try:
         if best.power < (1 - GAP) * bound and perf_counter() < deadline:
-            bound, source = yaw_bound(problem), BY_INTERVALS
+            bound, source = closest_bound(problem)
         if best.power < (1 - GAP) * bound:
             best, status, reason = _searched(problem, best, start, deadline)
     except KeyboardInterrupt:
         status, reason = Status.INTERRUPTED, ""
     if best.power >= (1 - GAP) * bound:
         status, reason = Status.OPTIMAL, ""
-    return Result(status, best.yaw, best.power, bound, perf_counter() - begin, source, reason)
+    power = float(farm_power(problem, best.yaw))
+    return Result(status, best.yaw, power, bound, perf_counter() - begin, source, reason)
 
 
-class SetPoint(NamedTuple):
-    """Misalignments [rad], and what the farm delivers with them by the exact wakes [W]."""
+class Candidate(NamedTuple):
+    """Misalignments [rad], and the farm's power with them by the compiled exact wakes [W]."""
 
     power: float
     yaw: Floats
 
 
-def judged(problem: YawProblem, yaw: Floats) -> SetPoint:
-    """Return set-points with their exact power."""
-    return SetPoint(float(farm_power(problem, yaw)), yaw)
+def judged(problem: YawProblem, yaw: Floats) -> Candidate:
+    """Return misalignments with their exact power."""
+    return Candidate(Sweep(problem, yaw).power, yaw)
 
 
 def _searched(
-    problem: YawProblem, best: SetPoint, start: Floats | None, deadline: float
-) -> tuple[SetPoint, Status, str]:
-    status, reason = Status.FEASIBLE, ""
-    for yaw, options in _starts(problem, start, deadline):
-        best = max(best, judged(problem, yaw), key=_power)
-        climb = climbed(problem, yaw, options, deadline)
-        best = max(best, judged(problem, climb.found()), key=_power)
-        if climb.status is Status.INTERRUPTED:
-            return best, Status.INTERRUPTED, ""
-        if climb.status is Status.LOCALLY_OPTIMAL:
-            status, reason = climb.status, AS_GOOD
-        elif status is Status.FEASIBLE:
-            reason = NOT_CONVERGED.format(climb.reason)
-        if perf_counter() >= deadline:
-            return best, status, reason
-    fine = refine(Sweep(problem, best.yaw), around=FINE, passes=(4, 4), deadline=deadline)
-    return max(best, judged(problem, fine), key=_power), status, reason
+    problem: YawProblem, best: Candidate, start: Floats | None, deadline: float
+) -> tuple[Candidate, Status, str]:
+    ends: list[Result[Floats]] = []
+    try:
+        for yaw, options in _starts(problem, start, deadline):
+            best = max(best, judged(problem, yaw), key=_power)
+            ends.append(climbed(problem, yaw, options, deadline))
+            best = max(best, judged(problem, ends[-1].found()), key=_power)
+            if ends[-1].status is Status.INTERRUPTED or perf_counter() >= deadline:
+                break
+        else:
+            sweep = Sweep(problem, best.yaw)
+            refine(sweep, around=FINE, passes=(4, 4), deadline=deadline)
+            best = Candidate(sweep.power, sweep.yaw)
+    except KeyboardInterrupt:
+        return best, Status.INTERRUPTED, ""
+    return best, *verdict(best.yaw, ends)
+
+
+def verdict(yaw: Floats, ends: Sequence[Result[Floats]]) -> tuple[Status, str]:
+    """Say how sure misalignments [rad] are that deliver no less than where Ipopt ended."""
+    if any(end.status is Status.INTERRUPTED for end in ends):
+        return Status.INTERRUPTED, ""
+    converged = [end.found() for end in ends if end.status is Status.LOCALLY_OPTIMAL]
+    if any(np.abs(yaw - end).max() <= FINE for end in converged):
+        return Status.LOCALLY_OPTIMAL, NEARBY
+    return Status.FEASIBLE, FAR if converged else NOT_CONVERGED.format(ends[-1].reason)
 
 
 def _starts(
@@ -162,8 +171,8 @@ def climbed(
     return ended.carrying(np.clip(ended.found()[lift.gamma[0]], *bounds))
 
 
-def _power(point: SetPoint) -> float:
-    return point.power
+def _power(candidate: Candidate) -> float:
+    return candidate.power
 
 
 def in_wind(problems: Sequence[YawProblem]) -> FarmInWind:

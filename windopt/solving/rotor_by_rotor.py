@@ -10,9 +10,6 @@ from windopt.solving.wake_sweep import Floats, Sweep
 PASSES = (5, 4)
 """How many misalignments each rotor tries in each pass; FLORIS's defaults."""
 
-UNWAKED = "every turbine without wakes"
-"""Source of the bound that needs no search."""
-
 
 def refine(
     sweep: Sweep,

@@ -34,7 +34,15 @@ CELLS = 16
 SAFE = 1 + 1e-7
 """Factor that covers rounding, and wakes too far aside to be looked at."""
 
+UNWAKED = "every turbine without wakes"
 BY_INTERVALS = "wakes that no yaw can push aside, by intervals"
+"""Sources of bounds."""
+
+
+def closest_bound(problem: YawProblem) -> tuple[float, str]:
+    """Return the lower of the proven bounds on a farm's power [W], and its source."""
+    intervals = yaw_bound(problem)
+    return (intervals, BY_INTERVALS) if intervals < problem.bound else (problem.bound, UNWAKED)
 
 
 def yaw_bound(problem: YawProblem) -> float:

@@ -17,11 +17,11 @@ from formulations.farm_wakes import wakes
 from windopt.domain.yaw_problem import YawProblem
 from windopt.errors import InvalidInput
 from windopt.result import Result, Status
-from windopt.solving.farm_yaw import FINE, FROM_NEARBY, in_wind
-from windopt.solving.rotor_by_rotor import UNWAKED, refine
+from windopt.solving.farm_yaw import FINE, FROM_NEARBY, in_wind, verdict
+from windopt.solving.rotor_by_rotor import refine
 from windopt.solving.separable import prepared, search
 from windopt.solving.wake_sweep import Sweep
-from windopt.solving.yaw_bound import BY_INTERVALS, yaw_bound
+from windopt.solving.yaw_bound import UNWAKED, closest_bound
 from windopt.wakes.farm import farm_power
 
 Floats = NDArray[np.float64]
@@ -62,23 +62,25 @@ def steer_all(
         reason = "A nacelle cannot follow the wind: its bounds and the limit exclude each other."
         return Result(Status.INFEASIBLE, None, -inf, -inf, perf_counter() - begin, "", reason)
     best = window.nearest(np.array([problem.facing for problem in problems]))
-    status, source = Status.FEASIBLE, UNWAKED
+    status, reason, source = Status.FEASIBLE, "", UNWAKED
     bounds = [problem.bound for problem in problems]
     try:
         if perf_counter() < deadline:
-            best, status = _searched(problems, window, best, deadline)
+            best, status, reason = _searched(problems, window, best, deadline)
         for t, problem in enumerate(problems):
             if perf_counter() < deadline and status is not Status.INTERRUPTED:
-                bounds[t], source = yaw_bound(problem), BY_INTERVALS
+                closest, told = closest_bound(problem)
+                if closest < bounds[t]:
+                    bounds[t], source = closest, told
     except KeyboardInterrupt:
-        status = Status.INTERRUPTED
+        status, reason = Status.INTERRUPTED, ""
     power, runtime = mean_power(problems, best), perf_counter() - begin
-    return Result(status, best, power, float(np.mean(bounds)), runtime, source)
+    return Result(status, best, power, float(np.mean(bounds)), runtime, source, reason)
 
 
 def _searched(
     problems: Sequence[YawProblem], window: "Window", best: Floats, deadline: float
-) -> tuple[Floats, Status]:
+) -> tuple[Floats, Status, str]:
     def better(a: Floats, b: Floats) -> Floats:
         return max(a, b, key=lambda yaw: mean_power(problems, yaw))
 
@@ -86,13 +88,12 @@ def _searched(
     start = window.nearest(np.array(alone))
     best = better(best, start)
     if perf_counter() >= deadline:
-        return best, Status.FEASIBLE
+        return best, Status.FEASIBLE, ""
     climb = _climbed(problems, window, start, deadline)
     best = better(best, window.nearest(climb.found()))
-    status = climb.status if climb.status is not Status.NO_SOLUTION else Status.FEASIBLE
-    if status is Status.INTERRUPTED:
-        return best, status
-    return _refined(problems, window, best, deadline), status
+    if climb.status is not Status.INTERRUPTED:
+        best = _refined(problems, window, best, deadline)
+    return best, *verdict(best, [climb])
 
 
 def mean_power(problems: Sequence[YawProblem], yaw: Floats) -> float:
