@@ -6,11 +6,14 @@ import sys
 from fnmatch import fnmatch
 from pathlib import Path
 
+from joblib import cpu_count
+
 from benchmarks.case import Case
 from benchmarks.records import read_lines
 from benchmarks.registry import PROBLEMS, SETS, problem
 from benchmarks.runner import run
 
+CORES = cpu_count(only_physical_cores=True)
 MEASURED = Path("measured")
 """Where lines go unless told otherwise."""
 RESULTS = Path("benchmarks/results")
@@ -35,7 +38,7 @@ def _parser() -> argparse.ArgumentParser:
     add("--method", nargs="+", metavar="NAME", help="only these; or module:function")
     add("--time-limit", type=float, help="of each case [s]; each set has its own")
     add("--seed", type=int, nargs="+", default=[0])
-    add("--jobs", type=int, default=1, help="cases at a time on this machine")
+    add("--jobs", type=int, default=CORES, help="cases at a time here (default: one a core)")
     add("--scheduler", default="", metavar="ADDRESS", help="of a dask cluster to run on instead")
     add("--resume", action="store_true", help="go on where an earlier run ended")
     add("--out", type=Path, default=MEASURED, help="folder of lines (default: %(default)s)")

@@ -32,7 +32,7 @@ DEFAULT_METHODS = {
     "guard": ("exact", "algorithm-2"),
 }
 SETS = tuple(DEFAULT_METHODS)
-TIME_LIMITS = {"small": 10.0, "medium": 60.0, "full": 300.0, "growth": 60.0, "guard": 60.0}
+TIME_LIMITS = {"small": 5.0, "medium": 60.0, "full": 300.0, "growth": 60.0, "guard": 60.0}
 
 DIRECTIONS = range(0, 360, 45)
 WINDS: dict[str, tuple[tuple[int, int], ...]] = {
