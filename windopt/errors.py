@@ -1,5 +1,7 @@
 """What windopt says when an input cannot be used."""
 
+from reprlib import repr as shortened
+
 
 class InvalidInput(ValueError):  # noqa: N818  (it is a ValueError, and reads as one)
     """An input that cannot be used: which field, what was expected and what came.
@@ -19,6 +21,12 @@ class InvalidInput(ValueError):  # noqa: N818  (it is a ValueError, and reads as
         self.field = field
         self.expected = expected
         self.got = got
+
+
+def require_kind(field: str, value: object, kind: type) -> None:
+    """Raise unless ``value`` is a ``kind``: a farm, say, and not the name of one."""
+    if not isinstance(value, kind):
+        raise InvalidInput(field, f"to be a {kind.__name__}", shortened(value))
 
 
 class MissingExtra(ImportError):  # noqa: N818

@@ -88,17 +88,16 @@ def show_inspection(result: Result[InspectionPlan]) -> None:
     if plan is None:
         say(f"No plan: {result.status.sentence} {result.reason}")
         return
-    table = Table("station", "turbines", "min", title=f"Inspection of {plan.farm.name}")
-    table.columns[2].justify = "right"
-    for flight in plan.flights:
-        stops = " > ".join(escape(name) for name in flight.turbines)
-        table.add_row(escape(flight.station), stops, f"{flight.duration / 60:.2f}")
-    out.print(table)
+    if plan.flights:
+        out.print(_flights(plan))
     reasons: dict[str, list[str]] = {}
     for left_out in plan.unreachable:
         reasons.setdefault(left_out.reason, []).append(left_out.turbine)
     for reason, names in reasons.items():
         say(f"Unreachable: {', '.join(names)}. {reason}")
+    if len(plan.unreachable) == len(plan.farm):
+        say(f"No flights. {result.reason}")
+        return
     for left in plan.left_out:
         say(f"Left out: {left.turbine}. {left.reason}")
     flights = counted(len(plan.flights), "flight")
@@ -107,6 +106,15 @@ def show_inspection(result: Result[InspectionPlan]) -> None:
         worth = f"worth {plan.forgone:.2f} s; with the flights that makes {plan.cost:.2f} s"
         say(f"{counted(len(plan.left_out), 'turbine')} left out, {worth}.")
     say(f"{_proof(result)} {result.reason}".strip())
+
+
+def _flights(plan: InspectionPlan) -> Table:
+    table = Table("station", "turbines", "min", title=f"Inspection of {plan.farm.name}")
+    table.columns[2].justify = "right"
+    for flight in plan.flights:
+        stops = " > ".join(escape(name) for name in flight.turbines)
+        table.add_row(escape(flight.station), stops, f"{flight.duration / 60:.2f}")
+    return table
 
 
 def _proof(result: Result[InspectionPlan]) -> str:

@@ -13,7 +13,7 @@ from windopt.domain.fleet import Fleet
 from windopt.domain.plan import Flight, InspectionPlan, SpeedRule
 from windopt.domain.routing import Route, RoutingInstance
 from windopt.domain.wind import Wind
-from windopt.errors import FailedCheck, InvalidInput
+from windopt.errors import FailedCheck, InvalidInput, require_kind
 from windopt.planning.assignment import Assignment, assigned_to, stations_of_turbines
 from windopt.planning.reach import (
     dwell_per_turbine,
@@ -107,6 +107,9 @@ def plan_inspection(
     FailedCheck
         If the independent checker finds a fault in the plan.
     """
+    require_kind("farm", farm, Farm)
+    require_kind("fleet", fleet, Fleet)
+    require_kind("wind", wind, Wind)
     began, recorder = perf_counter(), Recorder(progress)
     options = SearchOptions(gap, time_limit, seed, memory, progress=recorder)
     rule = _rule(rule)

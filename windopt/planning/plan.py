@@ -12,7 +12,7 @@ from windopt.domain.power_curve import STANDARD_AIR_DENSITY
 from windopt.domain.steering import Pace, Steering
 from windopt.domain.turbine import require_not_negative
 from windopt.domain.wind import WindSeries
-from windopt.errors import InvalidInput
+from windopt.errors import InvalidInput, require_kind
 from windopt.forecasting.autoregression import LinearAutoregression
 from windopt.forecasting.forecaster import Forecaster
 from windopt.forecasting.lstm import EdgeForecaster
@@ -97,6 +97,9 @@ def plan(
         If ``time`` lies outside the series, the series is too short or too full of gaps for the
         forecaster, or a name is unknown.
     """
+    require_kind("farm", farm, Farm)
+    require_kind("fleet", fleet, Fleet)
+    require_kind("series", series, WindSeries)
     begin = perf_counter()
     require_not_negative("time_limit", time_limit)
     pace = pace or Pace()

@@ -21,6 +21,7 @@ from windopt.domain.steering import Pace, Steering, yaw_problem
 from windopt.domain.turbine import require_positive
 from windopt.domain.wind import Wind, WindForecast
 from windopt.domain.yaw_problem import YawProblem
+from windopt.errors import require_kind
 from windopt.planning.turbine_yaw import present_misalignments
 from windopt.planning.yaw import curve_of, judged_plan, method_named
 from windopt.result import Result, Status
@@ -71,6 +72,8 @@ def plan_schedule(
     seed
         Of whatever is drawn at random.
     """
+    require_kind("farm", farm, Farm)
+    require_kind("forecast", forecast, WindForecast)
     deadline = perf_counter() + time_limit
     require_positive("air_density", air_density)
     pace, steering = pace or Pace(), steering or Steering()

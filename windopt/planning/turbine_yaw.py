@@ -26,7 +26,7 @@ from windopt.domain.plan import SetPoint, YawPlan
 from windopt.domain.turbine import TurbineType, require_positive
 from windopt.domain.wind import Wind
 from windopt.domain.yaw_problem import GAP
-from windopt.errors import InvalidInput
+from windopt.errors import InvalidInput, require_kind
 from windopt.heuristics.algorithm_1 import algorithm_1, exceeds_rated
 from windopt.result import Result, Status
 from windopt.solving import nonlinear
@@ -136,6 +136,8 @@ def plan_turbine_yaw(
     InvalidInput
         If an option cannot be used, or a turbine names an unknown power coefficient.
     """
+    require_kind("farm", farm, Farm)
+    require_kind("wind", wind, Wind)
     begin = perf_counter()
     if method not in METHODS:
         raise InvalidInput("method", f"to be one of {', '.join(METHODS)}", repr(method))

@@ -24,7 +24,7 @@ from windopt.domain.steering import Steering, yaw_problem
 from windopt.domain.turbine import TurbineType, require_positive
 from windopt.domain.wind import Wind
 from windopt.domain.yaw_problem import GAP, YawProblem
-from windopt.errors import FailedCheck, InvalidInput
+from windopt.errors import FailedCheck, InvalidInput, require_kind
 from windopt.heuristics.algorithm_1 import face_or_hold
 from windopt.heuristics.serial_refine import serial_refine
 from windopt.planning.turbine_yaw import present_misalignments
@@ -108,6 +108,8 @@ def plan_yaw(
     FailedCheck
         If the set-points do not stand up to the independent checker.
     """
+    require_kind("farm", farm, Farm)
+    require_kind("wind", wind, Wind)
     begin = perf_counter()
     search = method_named(method)
     if isnan(time_limit) or time_limit < 0:

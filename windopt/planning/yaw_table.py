@@ -23,7 +23,7 @@ from windopt.domain.turbine import require_not_negative, require_positive
 from windopt.domain.wind import Wind
 from windopt.domain.yaw_problem import GAP, YawProblem
 from windopt.domain.yaw_table import YawTable
-from windopt.errors import InvalidInput
+from windopt.errors import InvalidInput, require_kind
 from windopt.planning.yaw import DEFAULT_METHOD, closely_bounded, curve_of, method_named
 from windopt.result import Result, Status
 from windopt.solving.farm_yaw import steer
@@ -95,6 +95,7 @@ def plan_yaw_table(
     Result
         Its objective and bound are means over the cells [W].
     """
+    require_kind("farm", farm, Farm)
     begin = perf_counter()
     options, steering = options or TableOptions(), steering or Steering()
     method_named(method)
