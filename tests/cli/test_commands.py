@@ -7,6 +7,8 @@ import numpy as np
 import pytest
 
 from windopt.cli import main
+from windopt.cli.farm_options import PaceOptions
+from windopt.domain.steering import Pace
 
 FARM = "name,x,y\nA1,0,0\nA2,600,0\nA3,1200,0\nB1,0,700\nB2,600,700\n"
 STATIONS = "id,x,y\nS1,500,300\n"
@@ -182,6 +184,23 @@ def test_air_and_rotor_of_a_plan_may_be_chosen(windopt, folder):
     assert json.loads(out)["yaw"][0]["power"] != usual["yaw"][0]["power"]
 
 
+def test_nacelles_turn_at_the_pace_asked_for(windopt, folder):
+    options = "--stations", "1", "--yaw-rate", "0.001", "--yaw-threshold", "0", "--json"
+    code, out, err = windopt("plan", "farm.csv", "--wind", "wind.csv", *options)
+    assert code == 0, err
+    record = json.loads(out)
+    assert record["pace"] == {"rate": pytest.approx(0.001), "threshold": 0.0}
+    steps = [[turbine["nacelle"] for turbine in step["turbines"]] for step in record["yaw"]]
+    turned = (np.diff(steps, axis=0) + 180) % 360 - 180
+    assert np.abs(turned).max() <= 0.001 * 600 * (1 + 1e-6)
+    (folder / "record.json").write_text(out, encoding="utf-8")
+    assert windopt("check", "record.json")[0] == 0
+
+
+def test_the_usual_pace_is_that_of_the_library():
+    assert PaceOptions().pace == Pace()
+
+
 def test_a_broken_plan_fails_its_check_with_code_1(windopt, folder):
     windopt("inspect", "farm.csv", *WIND, "--out", "out")
     path = folder / "out" / "plan.json"
@@ -228,11 +247,14 @@ def test_where_nothing_can_fly_the_unreachable_are_listed_with_code_1(windopt, f
     assert code == 1
     unreachable = " ".join(row for row in out.splitlines() if row.startswith("Unreachable:"))
     assert all(name in unreachable for name in ("A1", "A2", "A3", "B1", "B2"))
+    assert out.splitlines()[-1] == "No flights. No turbine is within reach."
+    assert "Proved" not in out
     record = json.loads(windopt(*command, *options, "--json")[1])
     assert record["unreachable"] == ["A1", "A2", "A3", "B1", "B2"]
     assert record["flights"] == []
 
 
+PLAN = "plan", "farm.csv", "--wind", "wind.csv"
 BAD = {
     "wind speed": ("inspect", "farm.csv", "--wind-speed", "nan", "--wind-direction", "90"),
     "wind direction": ("yaw", "farm.csv", "--wind-speed", "8", "--wind-direction", "inf"),
@@ -260,6 +282,8 @@ BAD = {
     "turbulence to be a share": ("yaw", "farm.csv", *WIND, "--turbulence", "6"),
     "--direction-std >= 0, got -3.0": ("yaw", "farm.csv", *WIND, "--direction-std", "-3"),
     "--farm-cap >= 0, got -5.0": ("yaw", "farm.csv", *WIND, "--farm-cap", "-5"),
+    "--yaw-rate > 0, got 0.0": (*PLAN, "--yaw-rate", "0"),
+    "--yaw-threshold >= 0, got -1.0": (*PLAN, "--yaw-threshold", "-1"),
     "turbine": ("yaw", "farm.csv", *WIND, "--turbine", "V164"),
     "--out to end": ("yaw-table", "farm.csv", "--out", "table.xlsx"),
     "--speeds": ("yaw-table", "farm.csv", "--out", "table.csv", "--speeds", "a"),

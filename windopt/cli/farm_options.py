@@ -8,8 +8,8 @@ import typer
 
 from windopt.cli import options as opt
 from windopt.domain.farm import Farm
-from windopt.domain.steering import Steering
-from windopt.domain.turbine import require_not_negative
+from windopt.domain.steering import Pace, Steering
+from windopt.domain.turbine import require_not_negative, require_positive
 from windopt.io.turbine_types import TYPE_NOTES
 from windopt.io.turbines import BUILT_IN, load_turbine_type
 
@@ -30,6 +30,10 @@ DirectionStd = Annotated[
     float, typer.Option(help="Standard deviation of the wind's direction [deg].")
 ]
 FarmCap = Annotated[float | None, typer.Option(help="The most the grid takes [MW].")]
+YawRate = Annotated[float, typer.Option(help="How fast nacelles turn at most [deg/s].")]
+YawThreshold = Annotated[
+    float, typer.Option(help="Gain in the farm's power below which nacelles stay [%].")
+]
 
 
 @dataclass(frozen=True)
@@ -68,3 +72,18 @@ class SteeringOptions:
         cap = inf if self.farm_cap is None else 1e6 * self.farm_cap
         spread = radians(self.direction_std)
         return Steering(self.turbulence, lower, upper, spread, farm_cap=cap)
+
+
+@dataclass(frozen=True)
+class PaceOptions:
+    """How nacelles turn from step to step."""
+
+    yaw_rate: YawRate = 0.3
+    yaw_threshold: YawThreshold = 0.1
+
+    @property
+    def pace(self) -> Pace:
+        """The same in SI; a mistake is told in the units it was made in."""
+        require_positive("--yaw-rate", self.yaw_rate)
+        require_not_negative("--yaw-threshold", self.yaw_threshold)
+        return Pace(radians(self.yaw_rate), self.yaw_threshold / 100)

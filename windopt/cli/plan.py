@@ -7,7 +7,7 @@ import typer
 
 from windopt.cli import options as opt
 from windopt.cli.compiling import tell_of_compiling
-from windopt.cli.farm_options import RotorOptions, SteeringOptions
+from windopt.cli.farm_options import PaceOptions, RotorOptions, SteeringOptions
 from windopt.cli.files import require_free, write_folder
 from windopt.cli.flight_options import FlightOptions, UavOptions
 from windopt.cli.outcome import exit_code, print_record
@@ -40,6 +40,7 @@ def plan(
     *,
     rotors: RotorOptions,
     steered: SteeringOptions,
+    turning: PaceOptions,
     flights: FlightOptions,
     uav: UavOptions,
     json: opt.Json = False,
@@ -63,6 +64,7 @@ def plan(
             forecaster=forecaster,
             yaw_method=yaw_method,
             steering=steered.steering,
+            pace=turning.pace,
             air_density=air_density,
             **asked,
             progress=update,
