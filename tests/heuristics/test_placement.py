@@ -5,7 +5,7 @@ import pytest
 
 from windopt.domain.routing import RoutingInstance
 from windopt.errors import InvalidInput
-from windopt.heuristics.placement import balanced_stations, nearest_stations, place_stations
+from windopt.heuristics.placement import nearest_stations, place_stations
 
 
 def layout(stations, turbines):
@@ -71,19 +71,3 @@ def test_an_impossible_number_of_stations_is_refused(k):
 def test_each_turbine_belongs_to_the_nearest_station():
     instance = layout([(0, 0), (10, 0)], [(1, 0), (9, 9), (4, 0)])
     assert nearest_stations(instance).tolist() == [0, 1, 0]
-
-
-def test_a_full_station_leaves_the_turbine_that_loses_least():
-    instance = layout([(0, 0), (10, 0)], [(1, 0), (2, 0), (4, 0)])
-    assert balanced_stations(instance, 2).tolist() == [0, 0, 1]
-
-
-def test_room_enough_leaves_every_turbine_with_its_nearest_station():
-    turbines, centres = clusters()
-    instance = layout(centres, turbines)
-    assert np.array_equal(balanced_stations(instance, 60), nearest_stations(instance))
-
-
-def test_too_little_room_is_refused():
-    with pytest.raises(InvalidInput, match="capacity at least 2 for 3 turbines"):
-        balanced_stations(layout([(0, 0), (10, 0)], [(1, 0), (2, 0), (4, 0)]), 1)

@@ -10,11 +10,13 @@ from rich.markup import escape
 from rich.table import Table
 
 from windopt.cli import options as opt
+from windopt.cli.flight_options import UavOptions
 from windopt.cli.outcome import exit_code
 from windopt.cli.terminal import counted, note, progress, say
 from windopt.cli.terminal import out as console
+from windopt.cli.unfolded import unfolded
 from windopt.domain.farm import Farm
-from windopt.domain.fleet import FALCON_8, Fleet, Uav
+from windopt.domain.fleet import Fleet
 from windopt.errors import InvalidInput
 from windopt.io.plans import json_text
 from windopt.io.station_records import placement_record
@@ -42,6 +44,7 @@ File = Annotated[
 ]
 
 
+@unfolded
 def stations(
     farm: opt.FarmName,
     count: Count = None,
@@ -49,12 +52,10 @@ def stations(
     margin: Margin = MARGIN,
     candidates: Candidates = DEFAULT_CANDIDATES,
     method: Method = METHODS[0],
-    airspeed: opt.Airspeed = FALCON_8.airspeed,
-    t_max: opt.FlightTime = FALCON_8.t_max,
-    wind_max: opt.WindMax = FALCON_8.wind_max,
-    ground_speed_cap: opt.GroundSpeedCap = FALCON_8.ground_speed_cap,
     time_limit: opt.TimeLimit = 60.0,
     seed: opt.Seed = 0,
+    *,
+    uav: UavOptions,
     json: opt.Json = False,
     out: File = None,
     force: opt.Force = False,
@@ -66,8 +67,7 @@ def stations(
         raise InvalidInput("--method", f"to be one of {', '.join(METHODS)}", repr(method))
     site = Farm.load(farm)
     note(site.notes)
-    uav = Uav(FALCON_8.name, airspeed, t_max, wind_max, ground_speed_cap)
-    design = station_design(site, uav=uav, dwell=dwell, margin=margin)
+    design = station_design(site, uav=uav.uav, dwell=dwell, margin=margin)
     with progress(f"Placing stations for {site.name} by {method}"):
         if method == "k-means":
             result = placed_by_k_means(design, count, seed=seed)

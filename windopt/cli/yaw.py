@@ -2,7 +2,7 @@
 
 from enum import StrEnum
 from math import radians
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -75,29 +75,16 @@ def yaw(
     note(site.notes)
     if wakes is Wakes.NONE and steered != SteeringOptions():
         raise InvalidInput("--wakes", WITHOUT_WAKES, wakes)
-    present = None if nacelle is None else radians(nacelle)
+    asked: dict[str, Any] = {"method": method, "time_limit": time_limit, "seed": seed}
+    if nacelle is not None:
+        asked["nacelle"] = radians(nacelle)
+    if air_density is not None:  # each problem has its own
+        asked["air_density"] = air_density
     with progress(f"Setting {len(site)} turbines of {site.name} by {method}"):
         if wakes is Wakes.GAUSS:
-            result = plan_yaw(
-                site,
-                wind,
-                method=method,
-                steering=steered.steering,
-                nacelle=present,
-                air_density=STANDARD_AIR_DENSITY if air_density is None else air_density,
-                time_limit=time_limit,
-                seed=seed,
-            )
+            result = plan_yaw(site, wind, steering=steered.steering, **asked)
         else:
-            result = plan_turbine_yaw(
-                site,
-                wind,
-                method=method,
-                nacelle=present,
-                air_density=AIR_DENSITY if air_density is None else air_density,
-                time_limit=time_limit,
-                seed=seed,
-            )
+            result = plan_turbine_yaw(site, wind, **asked)
     if json:
         print_record(result)
     else:

@@ -2,15 +2,13 @@
 
 The paper takes both from Chung et al. (2021, *IEEE Trans. Ind. Informat.* 17, 3032-3043), of which
 it says no more than k-means clustering and a non-linear integer program. Here the stations are the
-centres of k-means clusters, and the integer program is a linear one, since the stations then
-stand still: least total distance, with at most a given number of turbines to each UAV.
+centres of k-means clusters, and each turbine belongs to the nearest: the least total distance.
 """
 
 from math import inf
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import linear_sum_assignment
 
 from windopt.domain.routing import RoutingInstance
 from windopt.errors import InvalidInput
@@ -72,32 +70,6 @@ def nearest_stations(instance: RoutingInstance) -> Ints:
     """
     nearest: Ints = distances(instance).argmin(axis=0)
     return nearest
-
-
-def balanced_stations(instance: RoutingInstance, capacity: int) -> Ints:
-    """Assign turbines to stations at the least total distance, with a limit for each station.
-
-    Parameters
-    ----------
-    capacity
-        The most turbines one station looks after.
-
-    Returns
-    -------
-    NDArray
-        The station of each turbine, shape ``(n,)``.
-
-    Raises
-    ------
-    InvalidInput
-        If the capacities together fall short of the number of turbines.
-    """
-    k, n = instance.allowed.shape
-    if k * capacity < n:
-        raise InvalidInput("capacity", f"at least {-(-n // k)} for {n} turbines", capacity)
-    places = np.repeat(np.arange(k), capacity)
-    place, turbine = linear_sum_assignment(distances(instance)[places])
-    return places[place[np.argsort(turbine)]]
 
 
 def _seeds(points: Floats, k: int, rng: np.random.Generator) -> Floats:
