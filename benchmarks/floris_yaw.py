@@ -1,11 +1,13 @@
-"""FLORIS as the judge of set-points, and its serial refine as the method to beat."""
+"""FLORIS as the judge of set-points, and its own searches as methods to beat."""
 
 from collections.abc import Sequence
 
 import numpy as np
 from floris import FlorisModel, UncertainFlorisModel
+from floris.optimization.yaw_optimization.yaw_optimizer_scipy import YawOptimizationScipy
 from floris.optimization.yaw_optimization.yaw_optimizer_sr import YawOptimizationSR
 from numpy.typing import NDArray
+from pandas import DataFrame
 
 from windopt.domain.yaw_problem import YawProblem
 
@@ -17,14 +19,31 @@ def serial_refine(problems: Sequence[YawProblem]) -> Floats:
 
     ``YawOptimizationSR`` runs with its defaults, within the bounds of the first problem.
     """
-    first = problems[0]
-    model = _uncertain(first) if len(first.weights) > 1 else _model(problems)
-    search = YawOptimizationSR(
-        model,
-        minimum_yaw_angle=np.degrees(first.lower),
-        maximum_yaw_angle=np.degrees(first.upper),
-    )
-    found = search.optimize(print_progress=False)
+    search = YawOptimizationSR(_searched(problems), **_bounds(problems))
+    return _misalignments(search.optimize(print_progress=False))
+
+
+def slsqp(problems: Sequence[YawProblem]) -> Floats:
+    """Return FLORIS's misalignments [rad], shape ``(T, n)``, one problem after the other.
+
+    ``YawOptimizationScipy`` runs with its defaults, within the bounds of the first problem.
+    """
+    search = YawOptimizationScipy(_searched(problems), **_bounds(problems))
+    return _misalignments(search.optimize())
+
+
+def _searched(problems: Sequence[YawProblem]) -> FlorisModel | UncertainFlorisModel:
+    return _uncertain(problems[0]) if len(problems[0].weights) > 1 else _model(problems)
+
+
+def _bounds(problems: Sequence[YawProblem]) -> dict[str, Floats]:
+    return {
+        "minimum_yaw_angle": np.degrees(problems[0].lower),
+        "maximum_yaw_angle": np.degrees(problems[0].upper),
+    }
+
+
+def _misalignments(found: DataFrame) -> Floats:
     yaw: Floats = np.radians(np.vstack(found.yaw_angles_opt))
     return yaw
 

@@ -1,4 +1,4 @@
-"""Wake steering: the nonlinear program and serial refine, windopt's own and FLORIS's.
+"""Wake steering: windopt's methods, the paper's rule, and rivals of scipy and FLORIS.
 
 Every set-point is judged by FLORIS itself. Methods run in one process on one processor, with what
 does not depend on the farm compiled before: numba's wakes, and CasADi's derivatives of a row.
@@ -9,17 +9,18 @@ does not depend on the farm compiled before: numba's wakes, and CasADi's derivat
 import resource
 from collections.abc import Callable, Sequence
 from math import inf
-from time import process_time
+from time import perf_counter, process_time
 
 import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks.case import Case, Problem, Record
+from benchmarks.scipy_yaw import slsqp
 from benchmarks.steered_farms import FURTHER, LARGE, LAYOUTS, TURN, SteeredFarm
 from windopt.domain.yaw_problem import YawProblem
-from windopt.heuristics.serial_refine import serial_refine
+from windopt.planning.yaw import METHODS as OURS
+from windopt.planning.yaw import YawMethod
 from windopt.result import Result
-from windopt.solving.farm_yaw import steer
 from windopt.solving.yaw_schedule import Window, steer_all
 
 Floats = NDArray[np.float64]
@@ -41,29 +42,48 @@ def by_program(
     """Solve the nonlinear program of each problem, or of all steps at once."""
     if kind == "steps":
         return _answer([steer_all(problems, turn=TURN, time_limit=limit)])
-    return _answer([steer(problem, time_limit=limit) for problem in problems])
+    return one_by_one(OURS["nlp"])(problems, kind, limit)
 
 
-def by_refining(
-    problems: Sequence[YawProblem], kind: str, limit: float
-) -> tuple[Floats, str, float]:
-    """Refine each problem rotor by rotor; steps are clipped to what nacelles can follow."""
-    yaw, status, bound = _answer([serial_refine(problem) for problem in problems])
-    return _followed(problems, kind, yaw), status, bound
+def one_by_one(search: YawMethod) -> Method:
+    """Return a method that takes the problems in turn, and clips steps to what nacelles can do."""
+
+    def in_turn(
+        problems: Sequence[YawProblem], kind: str, limit: float
+    ) -> tuple[Floats, str, float]:
+        deadline = perf_counter() + limit
+        found = []
+        for problem in problems:
+            left = max(0.0, deadline - perf_counter())
+            found.append(search(problem, time_limit=left, seed=0))
+        yaw, status, bound = _answer(found)
+        return _followed(problems, kind, yaw), status, bound
+
+    return in_turn
 
 
-def by_floris(problems: Sequence[YawProblem], kind: str, limit: float) -> tuple[Floats, str, float]:
-    """Let FLORIS refine all problems side by side, and clip steps afterwards."""
-    from benchmarks import floris_yaw
+def in_floris(search: str) -> Method:
+    """Return a method of FLORIS, which clips steps afterwards; it has no time limit of its own."""
 
-    return _followed(problems, kind, floris_yaw.serial_refine(problems)), "feasible", inf
+    def asked(problems: Sequence[YawProblem], kind: str, limit: float) -> tuple[Floats, str, float]:
+        from benchmarks import floris_yaw
+
+        yaw = getattr(floris_yaw, search)(problems)
+        return _followed(problems, kind, yaw), "feasible", inf
+
+    return asked
 
 
 METHODS: dict[str, Method] = {
     "nlp": by_program,
-    "serial-refine": by_refining,
-    "floris": by_floris,
+    "serial-refine": one_by_one(OURS["serial-refine"]),
+    "algorithm-1": one_by_one(OURS["algorithm-1"]),
+    "slsqp": one_by_one(slsqp),
+    "floris": in_floris("serial_refine"),
+    "floris-slsqp": in_floris("slsqp"),
 }
+ONLY_NAMED = {"floris-slsqp"}
+"""Methods that take minutes on 25 turbines, and run only where they are asked for."""
 
 
 def _answer(results: Sequence[Result[Floats]]) -> tuple[Floats, str, float]:
@@ -116,7 +136,7 @@ def show(records: Sequence[Record]) -> str:
 
 PROBLEM = Problem(
     instances=INSTANCES.__getitem__,
-    methods=lambda chosen: tuple(METHODS),
+    methods=lambda chosen: [name for name in METHODS if name not in ONLY_NAMED],
     time_limits=TIME_LIMITS,
     measure=measure,
     warm_up=warm_up,

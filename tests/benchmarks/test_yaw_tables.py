@@ -2,6 +2,7 @@
 
 import pytest
 
+from benchmarks.case import Case
 from benchmarks.records import appended
 from benchmarks.report.pages import write_pages
 from benchmarks.report.yaw_tables import (
@@ -12,7 +13,7 @@ from benchmarks.report.yaw_tables import (
     tables,
     where_floris_gains_more,
 )
-from benchmarks.yaw import INSTANCES, METHODS, show
+from benchmarks.yaw import INSTANCES, METHODS, measure, show
 
 
 def line(instance, method, gain, cpu, *, bound=None, status="feasible"):
@@ -125,6 +126,12 @@ def test_the_page_shows_tables_failures_and_what_is_missing(tmp_path):
         assert said in text
 
 
-def test_the_full_set_holds_every_other_and_is_steered_by_all_methods():
+def test_the_full_set_holds_every_other():
     assert {*INSTANCES["small"], *INSTANCES["medium"]} < {*INSTANCES["full"]}
-    assert set(METHODS) == {"nlp", "serial-refine", "floris"}
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_every_method_steers_three_in_a_row_and_is_judged_by_floris(method):
+    found = measure(Case("yaw", "row3-5D-272", method, 60.0))
+    assert found["power"] >= found["baseline"] * (1 - 1e-9)
+    assert (found["gain"] > 0.2) is (method != "algorithm-1")  # which knows of no wakes
