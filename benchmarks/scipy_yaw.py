@@ -1,9 +1,9 @@
 """SLSQP of scipy on the exact wakes: the rival that a user of scipy would write.
 
-FLORIS has the same algorithm, ``YawOptimizationScipy``, which asks FLORIS for one farm power at a
-time, differences included, and starts where the rotors face the wind. There a farm whose rows stand
-along the wind is stationary. This one asks windopt's twin of the same wakes for all differences at
-once and starts aside, so it is the stronger of the two.
+FLORIS has the same algorithm, ``YawOptimizationScipy``, which starts where the rotors face the wind
+and asks FLORIS for one farm power at a time, differences included. This one starts from either side
+and asks windopt's twin of the same wakes for all differences at once: the quicker of the two, and
+the better where they differ.
 """
 
 from math import inf, radians

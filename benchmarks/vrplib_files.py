@@ -15,7 +15,8 @@ import numpy as np
 
 from benchmarks.case import Record
 from benchmarks.inspections import Inspection
-from benchmarks.report.routing_tables import answered, best_known, instance
+from benchmarks.report.best_known import best_known, instance
+from benchmarks.report.lines import answered
 from benchmarks.whole_times import whole_limits, whole_times
 from windopt.domain.routing import Route, RoutingInstance
 from windopt.errors import InvalidInput, MissingExtra

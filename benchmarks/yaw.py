@@ -129,9 +129,10 @@ def warm_up(name: str) -> None:
 def show(records: Sequence[Record]) -> str:
     """Return windopt's gains and times beside FLORIS's, as text."""
     from benchmarks.report.columns import as_text
-    from benchmarks.report.yaw_tables import tables
+    from benchmarks.report.yaw_tables import case_tables, tables
 
-    return "\n\n".join(as_text(title, rows) for title, rows in tables(records).items())
+    shown = tables(records) | case_tables(records)
+    return "\n\n".join(as_text(title, rows) for title, rows in shown.items())
 
 
 PROBLEM = Problem(

@@ -1,6 +1,6 @@
 """Tables as plain text, for a terminal."""
 
-from benchmarks.report.routing_tables import Rows
+from benchmarks.report.lines import Rows
 
 
 def as_text(title: str, rows: Rows) -> str:

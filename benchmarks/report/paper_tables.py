@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping, Sequence
 
 from benchmarks.case import Record
-from benchmarks.report.routing_tables import Rows
+from benchmarks.report.lines import Rows
 
 ERRORS = "speed MAE", "speed RMSE", "direction MAE", "direction RMSE"
 FIELDS = "speed_mae", "speed_rmse", "direction_mae", "direction_rmse"

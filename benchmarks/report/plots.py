@@ -1,6 +1,6 @@
 """Pictures of lines; each function draws into an Axes and returns it."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 from math import inf
 from typing import TYPE_CHECKING
 
@@ -8,27 +8,24 @@ import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks.case import Record
-from benchmarks.report.routing_tables import (
-    Best,
-    above,
-    answered,
-    best_known,
-    instance,
-    methods,
-    number,
-    proved,
-)
+from benchmarks.report.best_known import Best, Known, above, instance, methods, planned, proved
+from benchmarks.report.lines import grouped, number
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+Floats = NDArray[np.float64]
 
 SHORTEST = 0.01
 """Time at which curves over time begin [s]."""
 LEAST = 1e-5
 """Distance from the best bound that is drawn as none [-]."""
+SHAPES = "os^Dv<>p"
+"""Of the marks of each series, so that those in one place can be told apart."""
+FAILED = "X"
 
 
-def profile(records: Sequence[Record], ax: "Axes") -> "Axes":
+def profile(records: Sequence[Record], known: Known, ax: "Axes") -> "Axes":
     """Draw the share of instances that each method has proved within a time."""
     for method in methods(records):
         mine = [record for record in records if record["method"] == method]
@@ -42,12 +39,11 @@ def profile(records: Sequence[Record], ax: "Axes") -> "Axes":
     return ax
 
 
-def distances(records: Sequence[Record], ax: "Axes") -> "Axes":
+def distances(records: Sequence[Record], known: Known, ax: "Axes") -> "Axes":
     """Draw the share of instances on which each method's plan is so close to the best bound."""
-    known = best_known(records)
     for method in methods(records):
         mine = [record for record in records if record["method"] == method]
-        found = [record for record in answered(mine) if record["objective"] is not None]
+        found = planned(mine)
         gaps = np.sort([max(LEAST, above(record, known[instance(record)])) for record in found])
         shares = np.arange(1, len(gaps) + 1) / max(1, len(mine))
         ax.step(100 * gaps, shares, where="post", label=method)
@@ -57,46 +53,91 @@ def distances(records: Sequence[Record], ax: "Axes") -> "Axes":
     return ax
 
 
-def gap_over_time(records: Sequence[Record], ax: "Axes") -> "Axes":
+def gap_over_time(records: Sequence[Record], known: Known, ax: "Axes") -> "Axes":
     """Draw how far the best plan so far is above the best bound known, mean over the instances.
 
     A curve begins when its method has a plan for every instance.
     """
-    known = best_known(records)
+    _over_time(records, known, ax, _plans_above)
+    ax.set_ylabel("best plan so far above the best bound, mean [%]")
+    return ax
+
+
+def bound_over_time(records: Sequence[Record], known: Known, ax: "Axes") -> "Axes":
+    """Draw how far the bound so far is below the best plan known, mean over the instances.
+
+    Methods without a bound have no curve.
+    """
+    _over_time(records, known, ax, _bounds_below)
+    ax.set_ylabel("bound so far below the best plan, mean [%]")
+    return ax
+
+
+def _over_time(
+    records: Sequence[Record],
+    known: Known,
+    ax: "Axes",
+    off: Callable[[Record, Best, Floats], Floats],
+) -> None:
     latest = max((record["time_limit"] for record in records), default=1.0)
     times = np.geomspace(SHORTEST, latest, 200)
     for method in methods(records):
-        mine = [r for r in answered(records) if r["method"] == method and r["objective"]]
+        mine = [record for record in planned(records) if record["method"] == method]
         if mine:
-            gaps = np.mean([_gaps(record, known[instance(record)], times) for record in mine], 0)
-            ax.plot(times, 100 * np.maximum(gaps, LEAST), label=method)
+            gaps = np.mean([off(record, known[instance(record)], times) for record in mine], 0)
+            if np.isfinite(gaps).any():
+                ax.plot(times, 100 * np.maximum(gaps, LEAST), label=method)
     ax.set(xscale="log", yscale="log", xlabel="time [s]")
-    ax.set_ylabel("best plan so far above the best bound, mean [%]")
     ax.legend()
-    return ax
 
 
-def _gaps(record: Record, best: Best, times: NDArray[np.float64]) -> NDArray[np.float64]:
+def _plans_above(record: Record, best: Best, times: Floats) -> Floats:
     moments = [(0.0, inf), *((time, number(value, inf)) for time, value, _ in record["trace"])]
     moments.append((record["runtime"], record["objective"]))
     began, objectives = np.array(sorted(moments)).T
-    so_far = np.minimum.accumulate(objectives)[np.searchsorted(began, times, side="right") - 1]
-    gaps: NDArray[np.float64] = np.maximum(so_far - best.bound, 0.0) / best.bound
-    return gaps
+    gaps: Floats = np.maximum(_at(times, began, np.minimum.accumulate(objectives)) - best.bound, 0)
+    return gaps / best.bound
 
 
-def growth(records: Sequence[Record], ax: "Axes") -> "Axes":
-    """Draw the time of each answer over the number of turbines; open circles are not proved."""
-    for number_, method in enumerate(methods(records)):
-        mine = [record for record in answered(records) if record["method"] == method]
-        for done in True, False:
-            points = [(r["turbines"], r["runtime"]) for r in mine if proved(r) is done]
-            if points:
-                colour = f"C{number_}"
-                face = colour if done else "none"
-                label = method if done or not any(map(proved, mine)) else None
-                n, seconds = zip(*points, strict=True)
-                ax.scatter(n, seconds, s=18, c=face, edgecolors=colour, label=label)
-    ax.set(xscale="log", yscale="log", xlabel="turbines", ylabel="time [s]")
-    ax.legend()
+def _bounds_below(record: Record, best: Best, times: Floats) -> Floats:
+    moments = [(0.0, -inf), *((time, number(value, -inf)) for time, _, value in record["trace"])]
+    moments.append((record["runtime"], number(record["bound"], -inf)))
+    began, bounds = np.array(sorted(moments)).T
+    gaps: Floats = np.maximum(best.objective - _at(times, began, np.maximum.accumulate(bounds)), 0)
+    return gaps / best.objective
+
+
+def _at(times: Floats, began: Floats, values: Floats) -> Floats:
+    """Return the value that holds at each time."""
+    held: Floats = values[np.searchsorted(began, times, side="right") - 1]
+    return held
+
+
+def growth(records: Sequence[Record], known: Known, ax: "Axes") -> "Axes":
+    """Draw the time to proof over the number of turbines; open marks proved nothing.
+
+    A method that ended without a proof is marked where it ended, a failed one by a cross.
+    """
+    _sizes(grouped(records, lambda record: str(record["method"])).items(), ax)
     return ax
+
+
+def growth_by_dwell(records: Sequence[Record], known: Known, ax: "Axes") -> "Axes":
+    """Draw the time to proof over the number of turbines; open marks proved nothing."""
+    _sizes(grouped(records, lambda record: f"{record['dwell']:g} s at each turbine").items(), ax)
+    return ax
+
+
+def _sizes(series: Iterable[tuple[str, Sequence[Record]]], ax: "Axes") -> None:
+    for i, (label, lines) in enumerate(series):
+        mine = [record for record in lines if record.get("turbines")]
+        shape = SHAPES[i % len(SHAPES)]
+        ax.scatter([], [], s=18, c=f"C{i}", marker=shape, label=label)
+        fates = grouped(mine, lambda record: (proved(record), record["status"] == "failed"))
+        for (done, failed), fate in fates.items():
+            n = [float(record["turbines"]) for record in fate]
+            seconds = [float(record.get("runtime") or record["time_limit"]) for record in fate]
+            face, mark = f"C{i}" if done else "none", FAILED if failed else shape
+            ax.scatter(n, seconds, s=18, c=face, edgecolors=f"C{i}", marker=mark)
+    ax.set(yscale="log", xlabel="turbines", ylabel="time [s]")
+    ax.legend()

@@ -1,8 +1,9 @@
 """The few forms of reStructuredText that the pages are made of."""
 
 import csv
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from io import StringIO
+from pathlib import Path
 
 from benchmarks.case import Record
 
@@ -20,9 +21,20 @@ def table(caption: str, rows: Sequence[Sequence[str]]) -> str:
     return f".. csv-table:: {caption}\n   :header-rows: 1\n\n{body}"
 
 
-def picture(file: str, alt: str) -> str:
-    """Return a picture that lies beside the page."""
-    return f".. image:: {file}\n   :alt: {alt}\n"
+def filled(caption: str, rows: Sequence[Sequence[str]]) -> str:
+    """Return a table, or nothing if it has no more than its head."""
+    return table(caption, rows) if len(rows) > 1 else ""
+
+
+def picture(draw: Callable[..., object], *drawn: object, path: Path) -> str:
+    """Draw into a file, and return the picture with the first line of what draws it as its text."""
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(7, 4), layout="constrained")
+    draw(*drawn, figure.subplots())
+    figure.savefig(path, dpi=110, metadata={"Software": None})
+    alt = (draw.__doc__ or "").splitlines()[0].removeprefix("Draw ")
+    return f".. image:: {path.name}\n   :alt: {alt}\n"
 
 
 def origin(records: Iterable[Record]) -> str:
@@ -42,9 +54,10 @@ def origin(records: Iterable[Record]) -> str:
     facts = [*cases, *commits, *machines, *packages, *limits]
     commands = dict.fromkeys(line["command"] for line in lines if line["command"])
     said = "".join(f"   $ {command}\n" for command in commands)
-    listed = "".join(f"* {fact}\n" for fact in facts)
+    listed = title(HEADING, "-") + "\n" + "".join(f"* {fact}\n" for fact in facts)
     return f"{listed}\n.. code-block:: console\n\n{said}" if said else listed
 
 
+HEADING = "Where the lines come from"
 SHOWN = "python", "numpy", "highspy", "numba", "casadi", "pyvrp", "ortools", "floris", "torch"
 """Packages whose versions the pages name."""

@@ -1,4 +1,4 @@
-"""Tables of yaw lines: what windopt's set-points gain beside FLORIS's, and how much faster.
+"""Tables of yaw lines: what windopt's set-points gain beside its rivals', and how much faster.
 
 A gain is a share of what the farm delivers facing the wind, and gains differ by points, per cent of
 the same. Every power is FLORIS's own, whoever found the set-points.
@@ -10,11 +10,19 @@ from dataclasses import dataclass
 from statistics import mean, median
 
 from benchmarks.case import Record
-from benchmarks.report.routing_tables import Rows, answered, failures
+from benchmarks.report.lines import Rows, answered, failures
 
 FLORIS = "floris"
 OURS = {"nlp": "nonlinear program", "serial-refine": "serial refine on compiled wakes"}
 """Methods of windopt, and what the tables call them."""
+RIVALS = {
+    FLORIS: "FLORIS's serial refine",
+    "floris-slsqp": "FLORIS's SLSQP",
+    "slsqp": "SLSQP on windopt's wakes",
+}
+NAMES = {**OURS, "algorithm-1": "the paper's Algorithm 1", **RIVALS}
+BESIDE = {"nlp": tuple(RIVALS), "serial-refine": (FLORIS,)}
+"""Whose set-points a method should be no worse than."""
 
 NEAR = 0.02
 """How many points below FLORIS's a gain may be and still count as no less."""
@@ -25,20 +33,20 @@ EQUAL = 1e-4
 
 @dataclass(frozen=True)
 class Pair:
-    """A method's line and FLORIS's on the same instance."""
+    """A method's line and a rival's on the same instance, FLORIS's unless said otherwise."""
 
     mine: Record
-    floris: Record
+    rival: Record
 
     @property
     def points(self) -> float:
         """How many points more the method gains."""
-        return 100 * float(self.mine["gain"] - self.floris["gain"])
+        return 100 * float(self.mine["gain"] - self.rival["gain"])
 
     @property
     def times_faster(self) -> float:
-        """FLORIS's processor time over the method's."""
-        return float(self.floris["cpu"] / self.mine["cpu"])
+        """The rival's processor time over the method's."""
+        return float(self.rival["cpu"] / self.mine["cpu"])
 
     @property
     def kind(self) -> tuple[int, str]:
@@ -50,13 +58,23 @@ class Pair:
 def tables(records: Sequence[Record]) -> dict[str, Rows]:
     """Return the tables by title; one that has no rows is left out."""
     found = {
-        "Over all instances": summary(records),
-        "Times faster than FLORIS, by size": by_size(records),
-        "Where FLORIS's set-points gain more": where_floris_gains_more(records),
-        **{f"FLORIS and the {name}": beside_floris(records, m) for m, name in OURS.items()},
+        "Over all instances that FLORIS refined": summary(records),
+        "Every method: gain, and seconds of a processor": every_method(records),
+        "Where a rival's set-points gain more": where_rivals_gain_more(records),
+        "Times faster than FLORIS's serial refine, by size": by_size(records),
         "Cases that failed": failures(records),
     }
-    return {title: rows for title, rows in found.items() if len(rows) > 1}
+    return _with_rows(found)
+
+
+def case_tables(records: Sequence[Record]) -> dict[str, Rows]:
+    """Return the tables that have a row for each instance, by title."""
+    found = {f"FLORIS and the {name}": beside_floris(records, m) for m, name in OURS.items()}
+    return _with_rows(found)
+
+
+def _with_rows(tables: dict[str, Rows]) -> dict[str, Rows]:
+    return {title: rows for title, rows in tables.items() if len(rows) > 1}
 
 
 def beside_floris(records: Sequence[Record], method: str) -> Rows:
@@ -83,16 +101,16 @@ def summary(records: Sequence[Record]) -> Rows:
         ["method", "cases", "failed", f"gain no less than FLORIS's - {NEAR} points", "mean gain",
          "FLORIS's mean gain", "points more: mean", "least", "most"]
     ]  # fmt: skip
-    for method, name in OURS.items():
+    for method, name in NAMES.items():
         failed = sum(r["method"] == method and r["status"] == "failed" for r in records)
         pairs = _pairs(records, method)
         points = [pair.points for pair in pairs]
         near = sum(more >= -NEAR for more in points)
-        if pairs:
+        if pairs and method != FLORIS:
             rows.append(
                 [name, str(len(pairs)), str(failed), f"{near} of {len(pairs)}",
                  f"{mean(pair.mine['gain'] for pair in pairs):.3%}",
-                 f"{mean(pair.floris['gain'] for pair in pairs):.3%}",
+                 f"{mean(pair.rival['gain'] for pair in pairs):.3%}",
                  *(f"{of(points):+.3f}" for of in (mean, min, max))]
             )  # fmt: skip
     return rows
@@ -112,29 +130,45 @@ def by_size(records: Sequence[Record]) -> Rows:
             times = [pair.times_faster for pair in pairs]
             rows.append(
                 [name, str(turbines), kind, str(len(pairs)),
-                 _number(median(pair.floris["cpu"] for pair in pairs)),
+                 _number(median(pair.rival["cpu"] for pair in pairs)),
                  _number(median(pair.mine["cpu"] for pair in pairs)),
                  *(_number(of(times)) for of in (min, median, max))]
             )  # fmt: skip
     return rows
 
 
-def where_floris_gains_more(records: Sequence[Record]) -> Rows:
-    """Return a row for each answer that gains less than FLORIS's, the farthest behind first."""
-    behind = [pair for method in OURS for pair in _pairs(records, method) if pair.points < -EQUAL]
-    rows = [["instance", "method", "points less"]]
+def every_method(records: Sequence[Record]) -> Rows:
+    """Return a row for each instance that more methods than ours and FLORIS's were run on."""
+    usual = {*OURS, FLORIS}
+    lines = {name: by for name, by in _by_instance(records).items() if by.keys() - usual}
+    shown = [method for method in NAMES if any(method in by for by in lines.values())]
+    rows = [["instance", *(NAMES[method] for method in shown)]]
     return rows + [
-        [pair.mine["instance"], OURS[pair.mine["method"]], f"{-pair.points:.4f}"]
-        for pair in sorted(behind, key=lambda pair: pair.points)
+        [name, *(_gain_and_time(by.get(method)) for method in shown)] for name, by in lines.items()
     ]
 
 
-def not_measured(records: Sequence[Record], instances: Sequence[str]) -> Rows:
-    """Return a row for each of these instances that lacks a line of some method."""
+def where_rivals_gain_more(records: Sequence[Record]) -> Rows:
+    """Return a row for each answer that gains less than a rival's, the farthest behind first."""
+    beside = [(method, rival) for method, rivals in BESIDE.items() for rival in rivals]
+    pairs = [pair for method, rival in beside for pair in _pairs(records, method, rival)]
+    behind = [pair for pair in pairs if pair.points < -EQUAL]
+    rows = [["instance", "method", "rival", "points less"]]
+    return rows + [
+        [pair.mine["instance"], OURS[pair.mine["method"]], NAMES[pair.rival["method"]],
+         f"{-pair.points:.4f}"]
+        for pair in sorted(behind, key=lambda pair: pair.points)
+    ]  # fmt: skip
+
+
+def not_measured(
+    records: Sequence[Record], instances: Sequence[str], methods: Sequence[str]
+) -> Rows:
+    """Return a row for each of these instances that lacks a line of some of these methods."""
     known = _by_instance(records)
     rows = [["instance", "methods"]]
     for name in instances:
-        if absent := [method for method in (FLORIS, *OURS) if method not in known.get(name, {})]:
+        if absent := [method for method in methods if method not in known.get(name, {})]:
             rows.append([name, ", ".join(absent)])
     return rows
 
@@ -147,9 +181,15 @@ def _by_instance(records: Sequence[Record]) -> Mapping[str, Mapping[str, Record]
     return lines
 
 
-def _pairs(records: Sequence[Record], method: str) -> list[Pair]:
+def _pairs(records: Sequence[Record], method: str, rival: str = FLORIS) -> list[Pair]:
     found = _by_instance(answered(records)).values()
-    return [Pair(line[method], line[FLORIS]) for line in found if {method, FLORIS} <= line.keys()]
+    return [Pair(line[method], line[rival]) for line in found if {method, rival} <= line.keys()]
+
+
+def _gain_and_time(record: Record | None) -> str:
+    if record is None or record["status"] == "failed":
+        return "failed" if record else "not measured"
+    return f"{record['gain']:.3%}, {_number(record['cpu'])} s"
 
 
 def _answer(lines: Mapping[str, Record], method: str) -> list[str]:

@@ -1,4 +1,4 @@
-"""Methods that go wrong, as a researcher's file beside her run."""
+"""Methods that go wrong, as a researcher's file beside her run, and lines of routing cases."""
 
 import pytest
 
@@ -37,3 +37,57 @@ def mine(tmp_path, monkeypatch):
     monkeypatch.syspath_prepend(tmp_path)
     monkeypatch.setenv("PYTHONPATH", str(tmp_path), prepend=":")
     return tmp_path
+
+
+FARM_A, FARM_B = "a-w10-090-d000", "b-w10-090-d000"
+FACTS = {
+    "turbines": 20,
+    "stations": 2,
+    "wind_speed": 10,
+    "wind_direction": 90,
+    "unreachable": 0,
+    "rounds": 0,
+}
+
+
+def line(method, objective, bound, runtime, *, instance=FARM_A, status="feasible", limit=10.0):
+    """Return the line of a case; what it says of the instance is said by its name."""
+    about = {"hash": instance, "farm": instance[0], "dwell": int(instance[-3:]), **FACTS}
+    answer = {
+        "objective": objective,
+        "bound": bound,
+        "runtime": runtime,
+        "cpu": runtime,
+        "trace": [[runtime / 2, objective, bound]],
+    }
+    reason = {"reason": "out of luck"}
+    return {
+        "problem": "routing",
+        "instance": instance,
+        "method": method,
+        "time_limit": limit,
+        "seed": 0,
+        "status": status,
+        **(reason if status == "failed" else about | answer | {"reason": ""}),
+        "commit": "abc",
+        "machine": {"processor": "one", "processors": 1, "memory_gb": 1},
+        "versions": {"python": "3"},
+        "command": "python -m benchmarks run routing",
+    }
+
+
+@pytest.fixture(name="line")
+def _line():
+    return line
+
+
+@pytest.fixture
+def lines():
+    """Two farms by an exact method and a heuristic, and one case that failed."""
+    return [
+        line("exact", 100.0, 100.0, 2.0, status="optimal"),
+        line("pyvrp", 103.0, None, 10.0),
+        line("exact", 250.0, 200.0, 10.0, instance=FARM_B),
+        line("pyvrp", 240.0, None, 10.0, instance=FARM_B),
+        line("broken", None, None, 1.0, status="failed"),
+    ]

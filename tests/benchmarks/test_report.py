@@ -3,98 +3,114 @@
 import pytest
 from matplotlib.figure import Figure
 
-from benchmarks.records import appended
+from benchmarks.records import ROOT, appended
+from benchmarks.registry import PROBLEMS
 from benchmarks.report import plots
-from benchmarks.report.cluster import needed
+from benchmarks.report.best_known import best_known, complete
+from benchmarks.report.lines import all_lines, failures
 from benchmarks.report.pages import write_pages
-from benchmarks.report.routing_tables import above, best_known, by_instance, by_method, failures
+from benchmarks.report.routing_tables import (
+    beside_optima,
+    by_instance,
+    by_method,
+    relaxation_strength,
+)
+
+INDEX = ROOT / "docs" / "benchmarks" / "index.rst"
 
 
-def line(method, objective, bound, runtime, *, instance="a-w10-090-d000", status="feasible"):
-    return {
-        "problem": "routing",
-        "instance": instance,
-        "method": method,
-        "time_limit": 10.0,
-        "seed": 0,
-        "hash": instance,
-        "farm": instance[0],
-        "turbines": 20,
-        "stations": 2,
-        "unreachable": 0,
-        "status": status,
-        "objective": objective,
-        "bound": bound,
-        "runtime": runtime,
-        "cpu": runtime,
-        "reason": "out of luck" if status == "failed" else "",
-        "trace": [[runtime / 2, objective, bound]],
-        "commit": "abc",
-        "machine": {"processor": "one", "processors": 1, "memory_gb": 1},
-        "versions": {"python": "3"},
-        "command": "python -m benchmarks run routing",
-    }
+def rows(table):
+    head, *found = table
+    return [dict(zip(head, row, strict=True)) for row in found]
 
 
-LINES = [
-    line("exact", 100.0, 100.0, 2.0, status="optimal"),
-    line("pyvrp", 103.0, None, 10.0),
-    line("exact", 250.0, 200.0, 10.0, instance="b-w10-090-d000"),
-    line("pyvrp", 240.0, None, 10.0, instance="b-w10-090-d000"),
-    line("broken", None, None, 1.0, status="failed"),
-]
+def test_each_method_is_measured_by_the_best_bound(lines):
+    exact, pyvrp, broken = rows(by_method(lines, best_known(lines)))
+    assert (exact["proved"], exact["CPU s a plan: median"]) == ("1", "6.0")
+    assert pyvrp["worst"] == "20.00%"
+    assert broken["failed"] == "1"
 
 
-def test_the_best_plan_and_the_best_bound_may_be_of_different_methods():
-    best = best_known(LINES)["b-w10-090-d000", "b-w10-090-d000"]
-    assert (best.objective, best.bound) == (240.0, 200.0)
-    assert best.gap == pytest.approx(1 / 6)
-    assert above(LINES[2], best) == pytest.approx(0.25)
+def test_heuristics_are_counted_that_found_the_proved_optimum(lines, line):
+    longer = line("exact", 240.0, 240.0, 99.0, instance="b-w10-090-d000", status="optimal")
+    known = best_known([*lines, longer | {"time_limit": 300.0}])
+    exact, pyvrp, broken = rows(beside_optima(complete(lines), known))
+    assert (pyvrp["cases with a proved optimum"], pyvrp["optimum found"]) == ("2", "1")
+    assert pyvrp["worst"] == "3.00%"
+    assert (exact["optimum found"], exact["share"]) == ("1", "50%")
+    assert broken["optimum found"] == "0"
 
 
-def test_each_method_is_measured_by_the_best_bound():
-    head, exact, pyvrp, broken = by_method(LINES)
-    assert dict(zip(head, exact, strict=True))["proved"] == "1"
-    assert dict(zip(head, pyvrp, strict=True))["worst"] == "20.00%"
-    assert dict(zip(head, broken, strict=True))["failed"] == "1"
+def test_each_instance_shows_every_method_and_what_failed(lines):
+    first, second = rows(by_instance(complete(lines), best_known(lines)))
+    assert first["exact"] == "proved, 2.0 s"
+    assert first["broken"] == "failed"
+    assert second["best plan s"] == "240.00"
 
 
-def test_each_instance_shows_every_method():
-    head, first, second = by_instance(LINES)
-    assert dict(zip(head, first, strict=True))["exact"] == "proved, 2.0 s"
-    assert dict(zip(head, first, strict=True))["broken"] == "failed"
-    assert dict(zip(head, second, strict=True))["best plan s"] == "240.00"
+def test_relaxations_are_measured_by_the_best_plan(lines, line):
+    exact = {**lines[0], "lp_bound": 90.0}
+    lp = line("time-flow-lp", None, 60.0, 1.0, status="no_solution")
+    flow, columns = rows(relaxation_strength([exact, lp], best_known([exact, lp])))
+    assert (flow["formulation"], flow["median"]) == ("time-flow", "60.0%")
+    assert (columns["formulation"], columns["median"]) == ("exact", "90.0%")
 
 
-def test_failures_are_shown_with_their_reason():
-    assert failures(LINES)[1:] == [["routing", "a-w10-090-d000", "broken", "10", "out of luck"]]
+def test_failures_are_shown_with_their_reason(lines):
+    assert failures(lines)[1:] == [["routing", "a-w10-090-d000", "broken", "10", "out of luck"]]
 
 
-def test_the_cluster_is_the_sum_of_the_times_over_five_minutes():
-    times = [line("exact", 1.0, 1.0, 200.0, instance=f"{farm}-w10-090-d000") for farm in "abcd"]
-    head, row = needed(times)
-    assert dict(zip(head, row, strict=True))["processors"] == "3"  # 800 s in 300 s
+def test_of_several_lines_of_a_case_the_last_counts(lines, tmp_path):
+    for name, record in ("one", lines[2]), ("two", {**lines[2], "objective": 249.0}):
+        appended(record, tmp_path / f"{name}.jsonl")
+    (kept,) = all_lines(tmp_path)
+    assert kept["objective"] == 249.0
 
 
 @pytest.mark.parametrize(
-    "draw", [plots.profile, plots.distances, plots.gap_over_time, plots.growth]
+    "draw",
+    [
+        plots.profile,
+        plots.distances,
+        plots.gap_over_time,
+        plots.bound_over_time,
+        plots.growth,
+        plots.growth_by_dwell,
+    ],
 )
-def test_pictures_name_their_axes(draw):
-    ax = draw(LINES, Figure().subplots())
+def test_pictures_name_their_axes(draw, lines):
+    ax = draw(complete(lines), best_known(lines), Figure().subplots())
     assert ax.get_xlabel()
     assert ax.get_ylabel()
     assert ax.get_legend() is not None
 
 
-def test_pages_show_tables_pictures_and_failures(tmp_path):
-    for record in LINES:
+def test_what_was_not_proved_is_drawn_open_and_what_failed_at_its_limit(lines):
+    ax = plots.growth(complete(lines), best_known(lines), Figure().subplots())
+    drawn = [dots for dots in ax.collections if len(dots.get_offsets())]
+    full, *open_marks = sorted(drawn, key=lambda dots: -len(dots.get_facecolor()))
+    assert full.get_offsets().tolist() == [[20.0, 2.0]]
+    assert not any(len(dots.get_facecolor()) for dots in open_marks)
+    assert any(dots.get_offsets().tolist() == [[20.0, 10.0]] for dots in open_marks)
+
+
+def test_pages_show_tables_pictures_and_failures(lines, tmp_path):
+    for record in lines:
         appended(record, tmp_path / "routing.jsonl")
+    grid = {**lines[0], "instance": "grid20-w10-090-d000"}
+    appended(grid, tmp_path / "growth.jsonl")
     pages = write_pages(tmp_path, tmp_path / "pages")
-    assert [page.stem for page in pages] == ["routing", "cluster"]
-    text = pages[0].read_text(encoding="utf-8")
-    assert "out of luck" in text
-    assert "proved, 2.0 s" in text
-    assert all(
-        (tmp_path / "pages" / name).is_file()
-        for name in ("routing-profile-10.png", "routing-gaps-10.png")
-    )
+    text = {page.stem: page.read_text(encoding="utf-8") for page in pages}
+    assert list(text) == ["routing", "routing-farms", "routing-cases", "growth", "cluster"]
+    assert "out of luck" in text["routing"]
+    assert "proved, 2.0 s" in text["routing-cases"]
+    assert "1 of 2" in text["routing"]
+    for name in "routing-profile-10-2", "routing-gaps-10-2", "routing-farms", "growth-10":
+        assert (tmp_path / "pages" / f"{name}.png").is_file()
+
+
+def test_every_problem_has_its_page_among_the_benchmarks():
+    index = INDEX.read_text(encoding="utf-8")
+    for name in PROBLEMS:
+        assert f"``{name}``" in index
+        assert f"generated/{name}" in index or name == "edge"  # which is told with the networks

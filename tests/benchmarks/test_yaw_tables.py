@@ -8,10 +8,12 @@ from benchmarks.report.pages import write_pages
 from benchmarks.report.yaw_tables import (
     beside_floris,
     by_size,
+    case_tables,
+    every_method,
     not_measured,
     summary,
     tables,
-    where_floris_gains_more,
+    where_rivals_gain_more,
 )
 from benchmarks.yaw import INSTANCES, METHODS, measure, show
 
@@ -92,17 +94,37 @@ def test_tables_of_winds_are_not_timed_among_single_winds():
     assert (table["set for"], table["median"]) == ("table", "6")
 
 
-def test_where_floris_gains_more_is_said():
-    assert rows(where_floris_gains_more(LINES)) == [
-        {"instance": BEHIND, "method": "nonlinear program", "points less": "0.0300"}
+def test_where_a_rival_gains_more_is_said():
+    ahead = line(AHEAD, "slsqp", 0.1031, 0.3)
+    behind = {"method": "nonlinear program", "rival": "FLORIS's serial refine"}
+    assert rows(where_rivals_gain_more([*LINES, ahead])) == [
+        {"instance": BEHIND, **behind, "points less": "0.0300"},
+        {
+            "instance": AHEAD,
+            "method": "nonlinear program",
+            "rival": "SLSQP on windopt's wakes",
+            "points less": "0.0100",
+        },
     ]
+
+
+def test_all_methods_stand_side_by_side_where_rivals_ran():
+    (ahead,) = rows(every_method([*LINES, line(AHEAD, "algorithm-1", 0.0, 0.0)]))
+    assert ahead == {
+        "instance": AHEAD,
+        "nonlinear program": "10.300%, 0.1 s",
+        "the paper's Algorithm 1": "0.000%, 0 s",
+        "FLORIS's serial refine": "10.000%, 4 s",
+    }
+    assert every_method(LINES) == [["instance"]]
 
 
 def test_what_failed_and_what_was_not_measured_is_said():
     *_, lost = rows(beside_floris(LINES, "nlp"))
     assert lost["windopt: gain"] == "failed"
     assert rows(beside_floris(LINES, "serial-refine"))[0]["windopt: gain"] == "not measured"
-    assert rows(not_measured(LINES, [AHEAD, "row3-5D-272"])) == [
+    methods = "floris", "nlp", "serial-refine"
+    assert rows(not_measured(LINES, [AHEAD, "row3-5D-272"], methods)) == [
         {"instance": AHEAD, "methods": "serial-refine"},
         {"instance": "row3-5D-272", "methods": "floris, nlp, serial-refine"},
     ]
@@ -111,7 +133,7 @@ def test_what_failed_and_what_was_not_measured_is_said():
 @pytest.mark.parametrize("lines", [LINES, LINES[:1], LINES[6:7], []])
 def test_the_tables_print_whatever_was_measured(lines):
     printed = show(lines)
-    assert all(title in printed for title in tables(lines))
+    assert all(title in printed for title in (*tables(lines), *case_tables(lines)))
     assert ("Over all instances" in printed) == (lines == LINES)
     assert ("out of luck" in printed) == (LINES[6] in lines)
 
@@ -119,11 +141,12 @@ def test_the_tables_print_whatever_was_measured(lines):
 def test_the_page_shows_tables_failures_and_what_is_missing(tmp_path):
     for record in LINES:
         appended(record, tmp_path / "yaw.jsonl")
-    (page,) = write_pages(tmp_path, tmp_path / "pages")
+    page, cases = write_pages(tmp_path, tmp_path / "pages")
     text = page.read_text(encoding="utf-8")
-    assert page.stem == "yaw"
-    for said in "+0.300", "out of luck", "Where FLORIS's set-points gain more", "were not measured":
+    assert (page.stem, cases.stem) == ("yaw", "yaw-cases")
+    for said in "+0.300", "out of luck", "Where a rival's set-points gain more", "not measured":
         assert said in text
+    assert "failed" in cases.read_text(encoding="utf-8")
 
 
 def test_the_full_set_holds_every_other():
