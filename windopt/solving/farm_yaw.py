@@ -43,11 +43,11 @@ FINE = radians(5.0)
 FROM_AFAR: Mapping[str, float] = {"tol": 1e-6, "max_iter": 100}
 FROM_NEARBY = {
     **FROM_AFAR,
-    "mu_init": 1e-4,
+    "mu_init": 1e-6,
     "bound_push": 1e-4,
     "bound_frac": 1e-4,
 }
-"""Options of Ipopt: a good start is not to be pushed away from its bounds."""
+"""Options of Ipopt: a good start is not to be pushed away, neither by bounds nor by their barrier."""
 
 NEARBY = (
     "Ipopt converged within 5 deg of these set-points, which by the exact wakes deliver no less."
