@@ -47,7 +47,7 @@ FROM_NEARBY = {
     "bound_push": 1e-4,
     "bound_frac": 1e-4,
 }
-"""Options of Ipopt: a good start is not to be pushed away, neither by bounds nor by their barrier."""
+"""Options of Ipopt: a good start is not to be pushed away by bounds or their barrier."""
 
 NEARBY = (
     "Ipopt converged within 5 deg of these set-points, which by the exact wakes deliver no less."
