@@ -12,6 +12,8 @@ from benchmarks.runner import key
 Shared = TypeVar("Shared")
 Rows = list[list[str]]
 """A table whose first row is its head."""
+TIMES = "runtime", "cpu"
+"""Wall and processor time of a line [s]; not every problem tells both."""
 
 
 def all_lines(folder: Path) -> list[Record]:
@@ -32,6 +34,24 @@ def failures(records: Iterable[Record]) -> Rows:
         if record["status"] == "failed":
             names = (record[name] for name in ("problem", "instance", "method"))
             rows.append([*names, f"{record['time_limit']:g}", record["reason"]])
+    return rows
+
+
+def runs(records: Iterable[Record]) -> Rows:
+    """Return a row for each command: its cases, what they took, and the machine."""
+    rows = [["command", "limit s", "cases", "failed", "wall h", "CPU h", "commit", "machine"]]
+    kinds = grouped(records, lambda record: (record["command"], record["time_limit"]))
+    for (command, limit), mine in kinds.items():
+        hours = (sum(record.get(time, 0.0) for record in mine) / 3600 for time in TIMES)
+        commits = dict.fromkeys(record["commit"] for record in mine)
+        machines = dict.fromkeys(
+            "{processor}, {processors} processors".format(**record["machine"]) for record in mine
+        )
+        rows.append(
+            [f"``{command}``", f"{limit:g}", str(len(mine)), str(len(mine) - len(answered(mine))),
+             *(f"{time:.2f}" if time else "-" for time in hours),
+             ", ".join(commits), "; ".join(machines)]
+        )  # fmt: skip
     return rows
 
 

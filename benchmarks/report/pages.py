@@ -7,7 +7,7 @@ from benchmarks.case import Record
 from benchmarks.registry import problem
 from benchmarks.report import forecast_tables, rst, yaw_tables
 from benchmarks.report.cluster import cluster_page
-from benchmarks.report.lines import all_lines, failures
+from benchmarks.report.lines import all_lines, failures, runs
 from benchmarks.report.paper_tables import TABLES
 from benchmarks.report.routing_pages import cases_page, farms_page, growth_page, routing_page
 from windopt.io.whole_files import write_whole
@@ -79,6 +79,14 @@ def paper_page(records: Sequence[Record], out: Path) -> Iterator[str]:
     yield rst.origin(mine)
 
 
+def runs_page(records: Sequence[Record], out: Path) -> Iterator[str]:
+    """Yield the page of what was run: commands, limits, times and machines."""
+    if records:
+        yield rst.title("What was run")
+        yield RUNS
+        yield rst.table("Commands behind the lines", runs(records))
+
+
 YAW = """\
 windopt's nonlinear program and serial refine, and the paper's Algorithm 1, which knows of no
 wakes, beside three rivals: the serial refine of FLORIS with its defaults, FLORIS's SLSQP
@@ -136,6 +144,11 @@ proves that Algorithm 2's plan is the best. On the coordinates of the real Walne
 turbines are farther apart, so the paper's flights would outlast the battery.
 """
 
+RUNS = """\
+Each command with its cases, the wall time and the processor time of all of them one after the
+other, and where it ran. Lines that were measured anew count with their last run.
+"""
+
 PAGES: dict[str, Callable[[Sequence[Record], Path], Iterator[str]]] = {
     "routing": routing_page,
     "routing-farms": farms_page,
@@ -146,5 +159,6 @@ PAGES: dict[str, Callable[[Sequence[Record], Path], Iterator[str]]] = {
     "yaw-cases": yaw_cases_page,
     "forecast": forecast_page,
     "paper": paper_page,
+    "runs": runs_page,
 }
 """Pages by file name; each takes all lines and the folder for its pictures."""

@@ -7,7 +7,7 @@ from benchmarks.records import ROOT, appended
 from benchmarks.registry import PROBLEMS
 from benchmarks.report import plots
 from benchmarks.report.best_known import best_known, complete
-from benchmarks.report.lines import all_lines, failures
+from benchmarks.report.lines import all_lines, failures, runs
 from benchmarks.report.pages import write_pages
 from benchmarks.report.routing_tables import (
     beside_optima,
@@ -67,6 +67,12 @@ def test_of_several_lines_of_a_case_the_last_counts(lines, tmp_path):
     assert kept["objective"] == 249.0
 
 
+def test_what_was_run_is_told_by_command(lines):
+    (told,) = rows(runs(lines))
+    assert told["command"] == "``python -m benchmarks run routing``"
+    assert (told["cases"], told["failed"], told["machine"]) == ("5", "1", "one, 1 processors")
+
+
 @pytest.mark.parametrize(
     "draw",
     [
@@ -101,7 +107,7 @@ def test_pages_show_tables_pictures_and_failures(lines, tmp_path):
     appended(grid, tmp_path / "growth.jsonl")
     pages = write_pages(tmp_path, tmp_path / "pages")
     text = {page.stem: page.read_text(encoding="utf-8") for page in pages}
-    assert list(text) == ["routing", "routing-farms", "routing-cases", "growth", "cluster"]
+    assert list(text) == ["routing", "routing-farms", "routing-cases", "growth", "cluster", "runs"]
     assert "out of luck" in text["routing"]
     assert "proved, 2.0 s" in text["routing-cases"]
     assert "1 of 2" in text["routing"]

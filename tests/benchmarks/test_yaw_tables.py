@@ -141,7 +141,7 @@ def test_the_tables_print_whatever_was_measured(lines):
 def test_the_page_shows_tables_failures_and_what_is_missing(tmp_path):
     for record in LINES:
         appended(record, tmp_path / "yaw.jsonl")
-    page, cases = write_pages(tmp_path, tmp_path / "pages")
+    page, cases, _ = write_pages(tmp_path, tmp_path / "pages")
     text = page.read_text(encoding="utf-8")
     assert (page.stem, cases.stem) == ("yaw", "yaw-cases")
     for said in "+0.300", "out of luck", "Where a rival's set-points gain more", "not measured":
