@@ -98,8 +98,8 @@ the wind.
 
 SLSQP on windopt's wakes is the rival to watch: it gains about as much as the nonlinear program,
 in more time, and where it gains more the third table says so. FLORIS's own asks for one farm
-power at a time, takes far longer, and was measured on
-a few small farms only. None of these searches proves that its set-points are the best.
+power at a time, takes far longer, and was measured on a few small farms only. None of these
+searches proves that its set-points are the best.
 
 Seconds are of the processor, from the farm and the wind to the set-points, in one process, the
 methods of an instance one after the other; what does not depend on the farm was compiled and

@@ -35,7 +35,7 @@ def profile(records: Sequence[Record], known: Known, ax: "Axes") -> "Axes":
             ends = [r["time_limit"] for r in mine]
             ax.step([*times, max(ends)], [*shares, shares[-1]], where="post", label=method)
     ax.set(xscale="log", xlabel="time [s]", ylabel="share of instances proved [-]", ylim=(0, 1.02))
-    ax.legend()
+    _legend(ax)
     return ax
 
 
@@ -49,7 +49,7 @@ def distances(records: Sequence[Record], known: Known, ax: "Axes") -> "Axes":
         ax.step(100 * gaps, shares, where="post", label=method)
     ax.set(xscale="log", xlabel="plan above the best bound [%]", ylabel="share of instances [-]")
     ax.set_ylim(0, 1.02)
-    ax.legend()
+    _legend(ax)
     return ax
 
 
@@ -88,7 +88,7 @@ def _over_time(
             if np.isfinite(gaps).any():
                 ax.plot(times, 100 * np.maximum(gaps, LEAST), label=method)
     ax.set(xscale="log", yscale="log", xlabel="time [s]")
-    ax.legend()
+    _legend(ax)
 
 
 def _plans_above(record: Record, best: Best, times: Floats) -> Floats:
@@ -111,6 +111,11 @@ def _at(times: Floats, began: Floats, values: Floats) -> Floats:
     """Return the value that holds at each time."""
     held: Floats = values[np.searchsorted(began, times, side="right") - 1]
     return held
+
+
+def _legend(ax: "Axes") -> None:
+    """Write what is drawn beside the picture, where it hides no curve."""
+    ax.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False)
 
 
 def growth(records: Sequence[Record], known: Known, ax: "Axes") -> "Axes":
@@ -140,4 +145,4 @@ def _sizes(series: Iterable[tuple[str, Sequence[Record]]], ax: "Axes") -> None:
             face, mark = f"C{i}" if done else "none", FAILED if failed else shape
             ax.scatter(n, seconds, s=18, c=face, edgecolors=f"C{i}", marker=mark)
     ax.set(yscale="log", xlabel="turbines", ylabel="time [s]")
-    ax.legend()
+    _legend(ax)

@@ -27,14 +27,14 @@ def filled(caption: str, rows: Sequence[Sequence[str]]) -> str:
 
 
 def picture(draw: Callable[..., object], *drawn: object, path: Path) -> str:
-    """Draw into a file, and return the picture with the first line of what draws it as its text."""
+    """Draw into a file, and return the picture over the first line of what draws it."""
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(7, 4), layout="constrained")
     draw(*drawn, figure.subplots())
     figure.savefig(path, dpi=110, metadata={"Software": None})
-    alt = (draw.__doc__ or "").splitlines()[0].removeprefix("Draw ")
-    return f".. image:: {path.name}\n   :alt: {alt}\n"
+    said = (draw.__doc__ or "").splitlines()[0].removeprefix("Draw ")
+    return f".. figure:: {path.name}\n   :alt: {said}\n\n   {said[:1].upper()}{said[1:]}\n"
 
 
 def origin(records: Iterable[Record]) -> str:
