@@ -21,15 +21,14 @@ LIMITS = {"small": 600.0, "medium": 600.0, "full": 600.0}
 OURS = "ours"
 """The only method: the rows differ by what they are about."""
 
-TRAINED = ("lstm-16", "lstm-8", "lstm-2", "hour-ahead-lstm")
-"""Forecasters beside those of the small set; each takes minutes to train."""
+FORECASTERS = tuple(name for name in forecast_cases.METHODS if not name.startswith("lstm-raw"))
+"""Those of the paper's tables, and what they must be better than."""
 
 
-def instances(chosen: str) -> Sequence[str]:
-    """Return the rows of all tables; the small set trains two networks only."""
-    forecasters = (*forecast_cases.SMALL, *(TRAINED if chosen != "small" else ()))
+def instances() -> Sequence[str]:
+    """Return the rows of all tables."""
     return [
-        *(f"forecast/{name}" for name in forecasters),
+        *(f"forecast/{name}" for name in FORECASTERS),
         *(f"yaw/{name}" for name in closed_loop.FORECASTERS),
         *(f"routing on {where}/{name}" for where in COORDINATES for name in PLANNERS),
     ]
@@ -72,7 +71,7 @@ def show(records: Sequence[Record]) -> str:
 
 
 PROBLEM = Problem(
-    instances=lambda chosen: instances(chosen) if chosen in LIMITS else (),
+    instances=lambda chosen: instances() if chosen in LIMITS else (),
     methods=lambda chosen: (OURS,),
     time_limits=LIMITS,
     measure=measure,

@@ -12,9 +12,10 @@ from benchmarks.report.paper_tables import ERRORS, FIELDS, rows_of
 
 
 def scored(records: Sequence[Record]) -> Mapping[str, Record]:
-    """Return the line of each forecaster by name, of several the last."""
+    """Return the line of each forecaster by name; the paper's where there is no other."""
     mine = {r["method"]: r for r in answered(records) if r["problem"] == "forecast"}
-    return {**rows_of(records, "forecast"), **mine}
+    papers = rows_of(records, "forecast").items()
+    return mine | {name: record for name, record in papers if name not in mine}
 
 
 def forecasters(records: Sequence[Record]) -> Rows:
