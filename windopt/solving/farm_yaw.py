@@ -23,6 +23,7 @@ from formulations.farm_wakes import wakes
 from formulations.power_curve import Curve
 from windopt.domain.yaw_problem import GAP, YawProblem
 from windopt.result import Result, Status
+from windopt.solving.interrupts import uninterrupted
 from windopt.solving.rotor_by_rotor import refine
 from windopt.solving.separable import prepared, search
 from windopt.solving.wake_sweep import Sweep
@@ -164,10 +165,12 @@ def climbed(
     Misalignments within their bounds, wherever Ipopt ended.
     """
     farm, bounds = in_wind([problem]), (problem.lower, problem.upper)
-    start = wakes(farm, yaw[None], bounds)
-    lift = lifted.farm_yaw(farm, start, bounds=bounds, cap=problem.farm_cap)
-    left = deadline - perf_counter()
-    ended = search(prepared(lift.program, time_limit=left, options=options), lift.start)
+    with uninterrupted():
+        start = wakes(farm, yaw[None], bounds)
+        lift = lifted.farm_yaw(farm, start, bounds=bounds, cap=problem.farm_cap)
+        left = deadline - perf_counter()
+        program = prepared(lift.program, time_limit=left, options=options)
+    ended = search(program, lift.start)
     return ended.carrying(np.clip(ended.found()[lift.gamma[0]], *bounds))
 
 

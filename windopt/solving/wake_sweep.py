@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from windopt.domain.yaw_problem import ROTOR_POINTS, YawProblem
 from windopt.solving.compiled_wakes import Kept, Row, Tables, keep, passed
+from windopt.solving.interrupts import uninterrupted
 from windopt.wakes.gaussian import K_A, K_B
 
 Floats = NDArray[np.float64]
@@ -63,6 +64,7 @@ class Sweep:
         Misalignments [rad], shape ``(n,)``.
     """
 
+    @uninterrupted()
     def __init__(self, problem: YawProblem, yaw: Floats) -> None:
         self.problem = problem
         self.yaw: Floats = np.array(yaw, dtype=float)
@@ -70,6 +72,7 @@ class Sweep:
         winds = range(len(problem.wind_speeds))
         self._winds = [_InOneWind(problem, s, tables, self.yaw) for s in winds]
 
+    @uninterrupted()
     def turn(self, turbine: int, yaw: float) -> None:
         """Turn one rotor to a misalignment [rad]."""
         self.yaw[turbine] = yaw
@@ -81,6 +84,7 @@ class Sweep:
         """The objective at the present misalignments [W]."""
         return self._objective(np.array([wind.total for wind in self._winds]))
 
+    @uninterrupted()
     def tried(self, turbine: int, yaws: Floats) -> Floats:
         """Return the objective [W] with one rotor turned, for each of ``yaws`` [rad]."""
         powers = np.empty((len(yaws), len(self._winds)))

@@ -7,16 +7,17 @@ in the main thread, because an exception inside one of its callbacks would end t
 would a run that is left behind, and however this ends, HiGHS has ended before.
 """
 
-import signal
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from queue import Empty, SimpleQueue
-from threading import Event, Thread, current_thread, main_thread
+from threading import Event, Thread
 from typing import NamedTuple
 
 import highspy
 import numpy as np
 from numpy.typing import NDArray
+
+from windopt.solving.interrupts import ctrl_c_sets
 
 WAKE = 0.1  # s
 
@@ -50,7 +51,7 @@ def run(model: highspy.Highs, hear: Callable[[News], None]) -> bool:
             ended.set()
 
     thread = Thread(target=work, daemon=True)
-    with _ctrl_c_sets(stop), _listening(model, stop, queue):
+    with ctrl_c_sets(stop), _listening(model, stop, queue):
         try:
             thread.start()
             while not ended.wait(WAKE):
@@ -98,20 +99,6 @@ def _listening(model: highspy.Highs, stop: Event, queue: SimpleQueue[News]) -> I
     finally:
         for callback, listener in listeners:
             callback.unsubscribe(listener)
-
-
-@contextmanager
-def _ctrl_c_sets(stop: Event) -> Iterator[None]:
-    """Let Ctrl-C set ``stop`` where it would raise, so that it cannot come at a wrong moment."""
-    raises = signal.getsignal(signal.SIGINT) is signal.default_int_handler
-    if not raises or current_thread() is not main_thread():
-        yield
-        return
-    signal.signal(signal.SIGINT, lambda *_: stop.set())
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 def _drain(queue: SimpleQueue[News], hear: Callable[[News], None]) -> None:

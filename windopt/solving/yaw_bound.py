@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 from windopt.domain.yaw_problem import YawProblem
 from windopt.solving.compiled_wakes import Row, Tables
 from windopt.solving.exact.compiled import compiled
+from windopt.solving.interrupts import uninterrupted
 from windopt.solving.wake_intervals import PIECES, Box, Spread, piece, sideways, spread, upwards
 from windopt.solving.wake_sweep import in_row, tables_of
 
@@ -52,8 +53,9 @@ def yaw_bound(problem: YawProblem) -> float:
     for s in range(len(bounds)):
         row, order = in_row(problem, s)
         edges = _edges(problem.lower[order], problem.upper[order])
-        powers, parent = most_powers(row, tables, edges)
-        bounds[s] = min(best_cells(powers, parent) * SAFE, unwaked[s])
+        with uninterrupted():
+            powers, parent = most_powers(row, tables, edges)
+            bounds[s] = min(best_cells(powers, parent) * SAFE, unwaked[s])
     return float(np.minimum(bounds, problem.farm_cap) @ problem.weights)
 
 

@@ -18,6 +18,7 @@ from windopt.domain.yaw_problem import YawProblem
 from windopt.errors import InvalidInput
 from windopt.result import Result, Status
 from windopt.solving.farm_yaw import FINE, FROM_NEARBY, in_wind, verdict
+from windopt.solving.interrupts import uninterrupted
 from windopt.solving.rotor_by_rotor import refine
 from windopt.solving.separable import prepared, search
 from windopt.solving.wake_sweep import Sweep
@@ -152,13 +153,13 @@ def _climbed(
     problems: Sequence[YawProblem], window: Window, start: Floats, deadline: float
 ) -> Result[Floats]:
     farm, bounds = in_wind(problems), (window.lower, window.upper)
-    found = wakes(farm, start, bounds)
-    cap = problems[0].farm_cap
-    lift = lifted.farm_yaw(
-        farm, found, bounds=bounds, cap=cap, turns=lifted.Turns(window.turn, window.shifts)
-    )
-    left = deadline - perf_counter()
-    ended = search(prepared(lift.program, time_limit=left, options=FROM_NEARBY), lift.start)
+    turns, cap = lifted.Turns(window.turn, window.shifts), problems[0].farm_cap
+    with uninterrupted():
+        found = wakes(farm, start, bounds)
+        lift = lifted.farm_yaw(farm, found, bounds=bounds, cap=cap, turns=turns)
+        left = deadline - perf_counter()
+        program = prepared(lift.program, time_limit=left, options=FROM_NEARBY)
+    ended = search(program, lift.start)
     return ended.carrying(ended.found()[lift.gamma])
 
 
