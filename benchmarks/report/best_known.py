@@ -85,9 +85,12 @@ def planned(records: Iterable[Record]) -> list[Record]:
 
 
 def above(record: Record, best: Best) -> float:
-    """Return how far a line's plan is above the best bound known, as a fraction of it [-]."""
+    """Return how far a line's plan is above the best bound known, as a fraction of it [-].
+
+    Infinitely far where no bound is known.
+    """
     objective = number(record["objective"], inf)
-    return max(0.0, objective - best.bound) / best.bound if best.bound > 0 else nan
+    return max(0.0, objective - best.bound) / best.bound if best.bound > 0 else inf
 
 
 def methods(records: Iterable[Record]) -> list[str]:

@@ -46,7 +46,8 @@ def distances(records: Sequence[Record], known: Known, ax: "Axes") -> "Axes":
         found = planned(mine)
         gaps = np.sort([max(LEAST, above(record, known[instance(record)])) for record in found])
         shares = np.arange(1, len(gaps) + 1) / max(1, len(mine))
-        ax.step(100 * gaps, shares, where="post", label=method)
+        if np.isfinite(gaps).any():
+            ax.step(100 * gaps, shares, where="post", label=method)
     ax.set(xscale="log", xlabel="plan above the best bound [%]", ylabel="share of instances [-]")
     ax.set_ylim(0, 1.02)
     _legend(ax)
@@ -96,7 +97,7 @@ def _plans_above(record: Record, best: Best, times: Floats) -> Floats:
     moments.append((record["runtime"], record["objective"]))
     began, objectives = np.array(sorted(moments)).T
     gaps: Floats = np.maximum(_at(times, began, np.minimum.accumulate(objectives)) - best.bound, 0)
-    return gaps / best.bound
+    return gaps / best.bound if best.bound > 0 else np.full(len(times), inf)
 
 
 def _bounds_below(record: Record, best: Best, times: Floats) -> Floats:
@@ -115,7 +116,8 @@ def _at(times: Floats, began: Floats, values: Floats) -> Floats:
 
 def _legend(ax: "Axes") -> None:
     """Write what is drawn beside the picture, where it hides no curve."""
-    ax.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False)
+    if ax.has_data():
+        ax.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False)
 
 
 def growth(records: Sequence[Record], known: Known, ax: "Axes") -> "Axes":

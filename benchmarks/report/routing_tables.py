@@ -72,7 +72,11 @@ def _seconds(times: Sequence[float], of: Callable[[Sequence[float]], float]) -> 
 
 
 def _shares(gaps: Sequence[float]) -> list[str]:
-    return [f"{of(gaps):.2%}" for of in (median, mean, max)] if gaps else ["-"] * 3
+    return [_share(of(gaps)) for of in (median, mean, max)] if gaps else ["-"] * 3
+
+
+def _share(gap: float) -> str:
+    return f"{gap:.2%}" if isfinite(gap) else "no bound"
 
 
 def by_instance(records: Sequence[Record], known: Known) -> Rows:
@@ -102,7 +106,7 @@ def _farm(record: Record) -> list[str]:
 def _cell(record: Record, best: Best) -> str:
     if record["status"] == "failed" or record["objective"] is None:
         return str(record["status"]).replace("_", " ")
-    distance = "proved" if proved(record) else f"{above(record, best):.2%}"
+    distance = "proved" if proved(record) else _share(above(record, best))
     return f"{distance}, {record['runtime']:.1f} s"
 
 

@@ -27,11 +27,17 @@ def filled(caption: str, rows: Sequence[Sequence[str]]) -> str:
 
 
 def picture(draw: Callable[..., object], *drawn: object, path: Path) -> str:
-    """Draw into a file, and return the picture over the first line of what draws it."""
+    """Draw into a file, and return the picture over the first line of what draws it.
+
+    Nothing is returned where there was nothing to draw.
+    """
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(7, 4), layout="constrained")
-    draw(*drawn, figure.subplots())
+    axes = figure.subplots()
+    draw(*drawn, axes)
+    if not axes.has_data():
+        return ""
     figure.savefig(path, dpi=110, metadata={"Software": None})
     said = (draw.__doc__ or "").splitlines()[0].removeprefix("Draw ")
     return f".. figure:: {path.name}\n   :alt: {said}\n\n   {said[:1].upper()}{said[1:]}\n"

@@ -115,6 +115,16 @@ def test_pages_show_tables_pictures_and_failures(lines, tmp_path):
         assert (tmp_path / "pages" / f"{name}.png").is_file()
 
 
+def test_heuristics_alone_are_shown_without_bounds(line, tmp_path):
+    for method, objective in ("pyvrp", 103.0), ("or-tools", 104.0):
+        appended(line(method, objective, None, 10.0), tmp_path / "routing.jsonl")
+    pages = write_pages(tmp_path, tmp_path / "pages")
+    text = {page.stem: page.read_text(encoding="utf-8") for page in pages}
+    assert "no bound" in text["routing"]
+    assert "no bound, 10.0 s" in text["routing-cases"]
+    assert ".png" not in text["routing"]
+
+
 def test_every_problem_has_its_page_among_the_benchmarks():
     index = INDEX.read_text(encoding="utf-8")
     for name in PROBLEMS:
