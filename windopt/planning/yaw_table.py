@@ -113,8 +113,9 @@ def plan_yaw_table(
     shape = len(theta), len(v)
     yaw = np.array([_angles(p, r) for p, r in zip(problems, found, strict=True)])
     power = np.array([float(farm_power(p, y)) for p, y in zip(problems, yaw, strict=True)])
-    if method != "algorithm-1":
-        _share(problems, yaw, power, shape)
+    statuses = {r.status for r in found}
+    if method != "algorithm-1" and _share(problems, yaw, power, shape):
+        statuses.add(Status.FEASIBLE)  # nothing is known of a neighbour's answer in this wind
     bound = np.array([_bound(p, r, at) for p, r, at in zip(problems, found, power, strict=True)])
     baseline = [float(farm_power(p, np.zeros(len(farm)))) for p in problems]
     table = YawTable(
@@ -128,7 +129,7 @@ def plan_yaw_table(
         steering,
         air_density,
     )
-    status = _status({r.status for r in found}, optimal=bool((bound - power <= GAP * bound).all()))
+    status = _status(statuses, optimal=bool((bound - power <= GAP * bound).all()))
     closer = (r.bound_source for p, r, b in zip(problems, found, bound, strict=True) if b < p.bound)
     objective, proved, source = float(power.mean()), float(bound.mean()), next(closer, UNWAKED)
     return Result(status, table, objective, proved, perf_counter() - begin, source)
@@ -182,9 +183,14 @@ def _angles(problem: YawProblem, result: Result[NDArray[np.float64]]) -> Floats:
     return problem.facing if result.solution is None else result.solution
 
 
-def _share(problems: list[YawProblem], yaw: Floats, power: Floats, shape: tuple[int, int]) -> None:
-    """Let every cell try its neighbours' misalignments, in place, until none improves."""
-    stale = set(range(len(problems)))
+def _share(problems: list[YawProblem], yaw: Floats, power: Floats, shape: tuple[int, int]) -> bool:
+    """Let every cell try its neighbours' misalignments, in place, until none improves.
+
+    Returns
+    -------
+    Whether any did.
+    """
+    stale, shared = set(range(len(problems))), False
     while stale:
         improved = set()
         for cell in sorted(stale):
@@ -193,9 +199,10 @@ def _share(problems: list[YawProblem], yaw: Floats, power: Floats, shape: tuple[
             powers = farm_power(problems[cell], tried)
             best = int(powers.argmax())
             if powers[best] > power[cell] * (1 + GAP):
-                yaw[cell], power[cell] = tried[best], powers[best]
+                yaw[cell], power[cell], shared = tried[best], powers[best], True
                 improved.update(around)
         stale = improved
+    return shared
 
 
 def _neighbours(cell: int, shape: tuple[int, int]) -> list[int]:
