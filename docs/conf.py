@@ -72,7 +72,7 @@ html_show_sourcelink = False
 # Pages of other packages are not fetched, so that the build needs no network; a type variable has
 # no page.
 nitpick_ignore_regex = [
-    (r"py:class", r"(collections|pathlib)\..*"),  # standard library
+    (r"py:class", r"(collections|pathlib|threading)\..*"),  # standard library
     (r"py:class", r"(casadi|cvxpy|highspy|numpy|scipy|torch)\..*"),
     (r"py:class", r"Axes|DataFrame"),  # of matplotlib and pandas, imported for type checkers only
     (r"py:class", r"windopt\.result\.(Solution|Other)"),
