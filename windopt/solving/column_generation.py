@@ -66,18 +66,11 @@ def column_generation(
     The best plan and the best bound found when the gap is closed, time is up, or the user
     interrupts; INFEASIBLE with the turbines that no flight can reach.
     """
-    if not time_limit >= 0:
-        raise InvalidInput("time_limit", ">= 0 s", time_limit)
-    if not gap >= 0:
-        raise InvalidInput("gap", ">= 0", gap)
-    if not memory >= 1e8:
-        raise InvalidInput("memory", "of at least 1e8 bytes", memory)
+    _require_limits(time_limit, gap, memory)
     with Clock(time_limit) as clock:
         search = Search(instance, clock, gap, progress)
         if search.unreachable.size:
-            beyond = ", ".join(str(i) for i in search.unreachable)
-            reason = f"No flight from any station reaches turbines {beyond} and is back in time."
-            return Result(Status.INFEASIBLE, None, inf, inf, clock.elapsed, SOURCE, reason)
+            return _infeasible(search)
         try:
             _begin(search, start, seed)
             _prove(search, memory, seed)
@@ -87,6 +80,22 @@ def column_generation(
         except KeyboardInterrupt:
             stopped = Status.INTERRUPTED
         return _result(search, stopped)
+
+
+def _require_limits(time_limit: float, gap: float, memory: float) -> None:
+    if not time_limit >= 0:
+        raise InvalidInput("time_limit", ">= 0 s", time_limit)
+    if not gap >= 0:
+        raise InvalidInput("gap", ">= 0", gap)
+    if not memory >= 1e8:
+        raise InvalidInput("memory", "of at least 1e8 bytes", memory)
+
+
+def _infeasible(search: Search) -> Result[tuple[Route, ...]]:
+    """Return that no plan exists, and because of which turbines."""
+    beyond = ", ".join(str(i) for i in search.unreachable)
+    reason = f"No flight from any station reaches turbines {beyond} and is back in time."
+    return Result(Status.INFEASIBLE, None, inf, inf, search.clock.elapsed, SOURCE, reason)
 
 
 def _begin(search: Search, start: tuple[Route, ...] | None, seed: int) -> None:

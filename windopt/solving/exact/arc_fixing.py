@@ -27,6 +27,7 @@ from windopt.solving.exact.labels import (
     carried,
 )
 from windopt.solving.exact.network import SLACK, Floats, Network, Side
+from windopt.solving.exact.waiting_labels import Span
 
 STEPS = 540
 """Steps of time in a table."""
@@ -112,6 +113,43 @@ def _through(
     return cost
 
 
+class Setting(NamedTuple):
+    """One station's network and what its labels are made from, for both sides alike."""
+
+    network: Network
+    prices: Prices
+    memory: Memory
+    width: float
+    capacity: int
+    stop: NDArray[np.uint8]
+
+
+def _both(
+    given: Setting, horizon: float, bounds: tuple[Bound, Bound]
+) -> tuple[Labels, Labels] | None:
+    """Return the forward and backward labels up to ``horizon``; None where they are too many."""
+    network, found = given.network, []
+    span = Span(network.t_max, horizon, given.width)
+    for side, bound in zip((network.forward, network.backward), bounds, strict=True):
+        part, complete = labels(
+            side, given.prices, given.memory, span, True, given.capacity, bound, given.capacity,
+            given.stop,
+        )  # fmt: skip
+        if not complete:
+            return None
+        found.append(part)
+    return found[0], found[1]
+
+
+def _tables(network: Network, ahead: Labels, behind: Labels) -> tuple[Floats, Floats]:
+    """Return the completion costs of forward and of backward labels."""
+    t_max, step = network.t_max, network.t_max / STEPS
+    return (
+        _reached(behind, network.backward, t_max, step),
+        _reached(ahead, network.forward, t_max, step),
+    )
+
+
 def useful_arcs(
     network: Network,
     prices: Prices,
@@ -128,36 +166,19 @@ def useful_arcs(
     The tables of completion costs and the least cost of a flight over each leg, shape
     ``(n, n)``; None where there are more labels than ``capacity``.
     """
-    step = network.t_max / STEPS
-
-    def both(horizon: float, bounds: tuple[Bound, Bound]) -> tuple[Labels, Labels] | None:
-        found = []
-        for side, bound in zip((network.forward, network.backward), bounds, strict=True):
-            part, complete = labels(
-                side, prices, memory, network.t_max, horizon, width, True, capacity, bound,
-                capacity, clock.stop,
-            )  # fmt: skip
-            if not complete:
-                return None
-            found.append(part)
-        return found[0], found[1]
-
-    def tables(ahead: Labels, behind: Labels) -> tuple[Floats, Floats]:
-        return (
-            _reached(behind, network.backward, network.t_max, step),
-            _reached(ahead, network.forward, network.t_max, step),
-        )
-
-    halves = both(network.half, (UNBOUNDED, UNBOUNDED))
+    given = Setting(network, prices, memory, width, capacity, clock.stop)
+    t_max, step = network.t_max, network.t_max / STEPS
+    halves = _both(given, network.half, (UNBOUNDED, UNBOUNDED))
     if halves is None:
         return None
-    forward, backward = (Bound(each, step, network.half, limit) for each in tables(*halves))
-    wholes = both(network.t_max, (forward, backward))
+    tables = _tables(network, *halves)
+    forward, backward = (Bound(table, step, network.half, limit) for table in tables)
+    wholes = _both(given, t_max, (forward, backward))
     if wholes is None:
         return None
-    rest = Completions(*tables(*wholes), step, *wholes)
+    rest = Completions(*_tables(network, *wholes), step, *wholes)
     through = _through(
-        *wholes, network.forward, memory, prices.penalty, network.t_max, rest.forward, step,
-        prices.pi, limit, clock.stop,
+        *wholes, network.forward, memory, prices.penalty, t_max, rest.forward, step, prices.pi,
+        limit, clock.stop,
     )  # fmt: skip
     return rest, through

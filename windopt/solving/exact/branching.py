@@ -7,7 +7,7 @@ those that are open bounds every plan.
 * [1] Ryan & Foster (1981), in *Computer Scheduling of Public Transport*, 269-280.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import partial
 from heapq import heappop, heappush
 from itertools import count
@@ -16,6 +16,8 @@ from typing import NamedTuple
 import numpy as np
 
 from windopt.solving.exact.network import Bools, Floats
+from windopt.solving.exact.pool import Pool
+from windopt.solving.exact.rank_one_rows import Rows
 from windopt.solving.exact.relaxation import MARGIN
 from windopt.solving.exact.search import CLOSED, Search
 from windopt.solving.exact.staged_mip import LITTLE_MORE, SIZES, minimise, staged_mip
@@ -72,18 +74,25 @@ def branch(root: Tightened, counts: Floats, target: float, search: Search) -> No
         if not children:
             bound = max(bound, minimise(pool, node.rows, counts, search))
             proved = min(proved, bound, wanted)
-        members = pool.members(search.n)
-        for branch_of, limits in children:
-            part = branch_of(members)
-            child = tighten(
-                pool.kept(part), reduced[part], node.rows, limits, wanted, search,
-                prove=lambda _: None,
-            )  # fmt: skip
-            if child is not None:
-                left = max(child.value, bound)
-                search.note("node with %d flights above %.3f", len(child.pool), left)
-                heappush(nodes, (left, next(serial), child, limits))
+        for child, limits in _tightened(children, pool, reduced, node.rows, wanted, search):
+            left = max(child.value, bound)
+            search.note("node with %d flights above %.3f", len(child.pool), left)
+            heappush(nodes, (left, next(serial), child, limits))
     search.prove(min(proved, search.ceiling))
+
+
+def _tightened(
+    branches: list[Branch], pool: Pool, reduced: Floats, rows: Rows, target: float, search: Search
+) -> Iterator[tuple[Tightened, Floats]]:
+    """Yield what is left of each branch that may hold a plan cheaper than ``target``."""
+    members = pool.members(search.n)
+    for part_of, counts in branches:
+        part = part_of(members)
+        left = tighten(
+            pool.kept(part), reduced[part], rows, counts, target, search, prove=lambda _: None
+        )
+        if left is not None:
+            yield left, counts
 
 
 def _children(node: Tightened, counts: Floats, target: float, search: Search) -> list[Branch]:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from windopt.solving.exact.bits import NONE, ONE, bit
-from windopt.solving.exact.compiled import compiled
+from windopt.solving.exact.compiled import compiled, inlined
 from windopt.solving.exact.hashing import empty_slots, row_hash, same_rows
 from windopt.solving.exact.joins import cheapest, partner
 from windopt.solving.exact.labels import EPS, Ints, Labels, Memory, Prices, Words, price_of
@@ -27,6 +27,25 @@ class Halves(NamedTuple):
     parent: Ints
     set: Words
     S: Words
+
+
+class Interest(NamedTuple):
+    """What flights of interest keep to.
+
+    Attributes
+    ----------
+    t_max, horizon
+        Longest flight and longest half flight.
+    limit
+        Reduced cost that none exceeds.
+    step
+        Width of a step in tables of completion costs.
+    """
+
+    t_max: float
+    horizon: float
+    limit: float
+    step: float
 
 
 @compiled
@@ -54,26 +73,141 @@ def _remembered(sets: Words, row: int, j: int, memory: Memory) -> np.uint64:
 
 
 @compiled
+def _room(capacity: int, n: int, words: int) -> Halves:
+    """Make room for half flights, and for one to be looked at."""
+    return Halves(
+        np.empty(capacity + 1),
+        np.empty(capacity + 1),
+        np.empty(capacity + 1, np.int32),
+        np.empty(capacity + 1, np.int32),
+        np.empty((capacity + 1, (n + 63) // 64), np.uint64),
+        np.empty((capacity + 1, words), np.uint64),
+    )
+
+
+@compiled
+def _cut(found: Halves, count: int) -> Halves:
+    """Return copies of the rows in use."""
+    return Halves(
+        found.T[:count].copy(),
+        found.C[:count].copy(),
+        found.node[:count].copy(),
+        found.parent[:count].copy(),
+        found.set[:count].copy(),
+        found.S[:count].copy(),
+    )
+
+
+@inlined
+def _in_time(side: Side, interest: Interest, j: int, t: float) -> bool:
+    """Tell whether a half flight may be done at j at time t."""
+    return bool(t <= interest.horizon and t + side.rest[j] <= interest.t_max + SLACK)
+
+
+@inlined
+def _keep(
+    found: Halves, slots: Ints, count: int, parent: int, j: int, t: float, c: float, S: Words
+) -> tuple[Ints, int, bool]:
+    """Keep ``parent`` flown on to j, unless a half flight over the same turbines is as fast.
+
+    Returns the hash table, the number of half flights, and whether there was room.
+    """
+    for word in range(found.set.shape[1]):
+        found.set[count, word] = found.set[parent, word] if parent >= 0 else NONE
+    found.set[count, j >> 6] |= bit(j)
+    slot = _find(slots, found, count, j)
+    row = slots[slot]
+    if row >= 0 and found.T[row] <= t:
+        return slots, count, True
+    if row < 0:
+        if count == len(found.T) - 1:
+            return slots, count, False
+        row = slots[slot] = count
+        count += 1
+    found.T[row], found.C[row], found.node[row], found.parent[row] = t, c, j, parent
+    found.S[row] = S
+    if 2 * count > len(slots):
+        slots = empty_slots(4 * len(slots))
+        for old in range(count):
+            slots[_find(slots, found, old, found.node[old])] = old
+    return slots, count, True
+
+
+@compiled
+def _start(
+    found: Halves, slots: Ints, side: Side, prices: Prices, interest: Interest, rest: Floats
+) -> tuple[Ints, int, bool]:
+    """Fly from the station to each turbine."""
+    count, fitted = 0, True
+    for j in range(len(side.first)):
+        t, c = side.first[j], side.first[j] - prices.pi[j]
+        if fitted and _in_time(side, interest, j, t):
+            left = interest.t_max - t + SLACK
+            if c + rest[j, int(left / interest.step)] <= interest.limit:
+                slots, count, fitted = _keep(found, slots, count, -1, j, t, c, prices.inside[j])
+    return slots, count, fitted
+
+
+@inlined
+def _extend(
+    found: Halves,
+    slots: Ints,
+    count: int,
+    current: int,
+    side: Side,
+    prices: Prices,
+    memory: Memory,
+    interest: Interest,
+    rest: Floats,
+    ends: Labels,
+    least: Floats,
+    S: Words,
+) -> tuple[Ints, int, bool]:
+    """Fly on from half flight ``current``."""
+    i = found.node[current]
+    for e in range(side.degree[i]):
+        j = side.heads[i, e]
+        leg = side.legs[i, j]
+        t = found.T[current] + leg
+        visited = found.set[current, j >> 6] & bit(j) != NONE
+        if visited or not _in_time(side, interest, j, t):
+            continue
+        c = found.C[current] + leg - prices.pi[j]
+        for word in range(len(S)):
+            kept = prices.memory[j, word] & found.S[current, word]
+            c += price_of(kept & prices.inside[j, word], word, prices.penalty)
+            S[word] = kept ^ prices.inside[j, word]
+        left = interest.t_max - t + SLACK
+        if c + rest[j, int(left / interest.step)] > interest.limit:
+            continue
+        V = _remembered(found.set, current, j, memory)
+        below = interest.limit - found.C[current] - leg + EPS
+        _, end = partner(ends, least, j, V, found.S, current, left, below, below, prices.penalty)
+        if end >= 0:
+            slots, count, fitted = _keep(found, slots, count, current, j, t, c, S)
+            if not fitted:
+                return slots, count, False
+    return slots, count, True
+
+
+@compiled
 def half_flights(
     side: Side,
     prices: Prices,
-    rest: Floats,
-    step: float,
-    ends: Labels,
     memory: Memory,
-    t_max: float,
-    horizon: float,
-    limit: float,
+    interest: Interest,
+    rest: Floats,
+    ends: Labels,
     capacity: int,
     stop: NDArray[np.uint8],
 ) -> tuple[Halves, bool]:
-    """Find the elementary half flights that may be part of a flight of cost ``limit`` or less.
+    """Find the elementary half flights that may be part of a flight of interest.
 
     They come in order of size, so that a half flight is final before it is extended.
 
     Parameters
     ----------
-    rest, step
+    rest
         Table of completion costs, a quick test.
     ends
         Labels from the other end, a thorough one: one of them must complete the half flight
@@ -84,81 +218,14 @@ def half_flights(
     The :class:`Halves`, and whether they are complete.
     """
     n, words = prices.memory.shape
-    width = (n + 63) // 64
-    found = Halves(
-        np.empty(capacity + 1),
-        np.empty(capacity + 1),
-        np.empty(capacity + 1, np.int32),
-        np.empty(capacity + 1, np.int32),
-        np.empty((capacity + 1, width), np.uint64),
-        np.empty((capacity + 1, words), np.uint64),
-    )
-    slots = empty_slots(1 << 16)
+    found, S = _room(capacity, n, words), np.empty(words, np.uint64)
     least = cheapest(ends)
-    count, current = 0, -1
-    parities = np.empty(words, np.uint64)
-    complete = True
-    while current < count and complete:
-        if stop[0] != 0:
-            complete = False
-            break
-        i = found.node[current] if current >= 0 else -1
-        for e in range(side.degree[i] if i >= 0 else n):
-            j = side.heads[i, e] if i >= 0 else e
-            if i >= 0:
-                if found.set[current, j >> 6] & bit(j) != NONE:
-                    continue
-                leg = side.legs[i, j]
-                t, c = found.T[current] + leg, found.C[current] + leg - prices.pi[j]
-            else:
-                t, c = side.first[j], side.first[j] - prices.pi[j]
-            if t > horizon or t + side.rest[j] > t_max + SLACK:
-                continue
-            for word in range(words):
-                kept = prices.memory[j, word] & (found.S[current, word] if i >= 0 else NONE)
-                c += price_of(kept & prices.inside[j, word], word, prices.penalty)
-                parities[word] = kept ^ prices.inside[j, word]
-            if c + rest[j, int((t_max - t + SLACK) / step)] > limit:
-                continue
-            left = t_max - t + SLACK
-            if i >= 0:
-                V = _remembered(found.set, current, j, memory)
-                below = limit - found.C[current] - side.legs[i, j] + EPS
-                _, end = partner(
-                    ends, least, j, V, found.S, current, left, below, below, prices.penalty
-                )
-                if end < 0:
-                    continue
-            for word in range(width):
-                found.set[count, word] = found.set[current, word] if i >= 0 else NONE
-            found.set[count, j >> 6] |= bit(j)
-            slot = _find(slots, found, count, j)
-            row = slots[slot]
-            if row >= 0:
-                if found.T[row] <= t:
-                    continue
-            elif count == capacity:
-                complete = False
-                break
-            else:
-                row = count
-                slots[slot] = count
-                count += 1
-            found.T[row], found.C[row], found.node[row], found.parent[row] = t, c, j, current
-            found.S[row] = parities
-            if 2 * count > len(slots):
-                slots = empty_slots(4 * len(slots))
-                for old in range(count):
-                    slots[_find(slots, found, old, found.node[old])] = old
+    slots, count, complete = _start(found, empty_slots(1 << 16), side, prices, interest, rest)
+    current = 0
+    while complete and current < count:
+        slots, count, complete = _extend(
+            found, slots, count, current, side, prices, memory, interest, rest, ends, least, S
+        )
+        complete = complete and stop[0] == 0
         current += 1
-    return (
-        Halves(
-            found.T[:count].copy(),
-            found.C[:count].copy(),
-            found.node[:count].copy(),
-            found.parent[:count].copy(),
-            found.set[:count].copy(),
-            found.S[:count].copy(),
-        ),
-        complete,
-    )
+    return _cut(found, count), complete

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from windopt.solving.exact.bits import NONE
-from windopt.solving.exact.compiled import compiled
+from windopt.solving.exact.compiled import compiled, inlined
 from windopt.solving.exact.labels import Ints, Labels, Memory, Words, carried, price_of
 from windopt.solving.exact.network import SLACK, Floats, Side
 
@@ -49,15 +49,12 @@ def partner(
     ----------
     least
         Of :func:`cheapest`.
-    left
-        Longest time of the label.
-    below, enough
-        Cost that the label must keep below, and cost that needs no improvement.
+    left, below, enough
+        Longest time of the label, cost to keep below, and cost that needs no improvement.
 
     Returns
     -------
-    Its cost with the penalties of the join, and the label; ``below`` and :data:`ALONE` where
-    there is none.
+    Its cost with the penalties of the join, and the label; ``below`` and :data:`ALONE` for none.
     """
     best, label = below, ALONE
     for layer in range(len(least)):
@@ -78,6 +75,32 @@ def partner(
                 if best <= enough:
                     return best, label
     return best, label
+
+
+@inlined
+def _joined(
+    forward: Labels, f: int, backward: Labels, least: Floats, side: Side, memory: Memory,
+    penalty: Floats, t_max: float, half: float, limit: float,
+) -> tuple[float, int]:  # fmt: skip
+    """Return the cost of the best flight through label f, and the label it joins."""
+    cost, label = limit, ALONE
+    i = forward.node[f]
+    if forward.T[f] + side.last[i] <= t_max + SLACK:
+        cost = min(limit, forward.C[f] + side.last[i])
+    for e in range(side.degree[i]):
+        j = side.heads[i, e]
+        leg = side.legs[i, j]
+        left = t_max - forward.T[f] - leg + SLACK
+        below = cost - forward.C[f] - leg
+        if forward.T[f] + leg <= half or left < 0.0 or least[-1, j] >= below:
+            continue
+        if forward.V[f] & memory.bit[i, j] != NONE:
+            continue
+        V = carried(forward.V[f], i, j, memory)
+        best, b = partner(backward, least, j, V, forward.S, f, left, below, -np.inf, penalty)
+        if b >= 0:
+            cost, label = forward.C[f] + leg + best, b
+    return cost, label
 
 
 @compiled
@@ -111,28 +134,14 @@ def join(
     backward label it joins, :data:`ALONE` for none.
     """
     least = cheapest(backward)
-    last = len(least) - 1
     cost = np.full(len(forward.T), limit)
     label = np.full(len(forward.T), ALONE, np.int32)
     for f in range(len(forward.T)):
         if stop[0] != 0:
             break
-        i = forward.node[f]
-        if forward.T[f] + side.last[i] <= t_max + SLACK:
-            cost[f] = min(limit, forward.C[f] + side.last[i])
-        for e in range(side.degree[i]):
-            j = side.heads[i, e]
-            leg = side.legs[i, j]
-            left = t_max - forward.T[f] - leg + SLACK
-            below = cost[f] - forward.C[f] - leg
-            if forward.T[f] + leg <= half or left < 0.0 or least[last, j] >= below:
-                continue
-            if forward.V[f] & memory.bit[i, j] != NONE:
-                continue
-            V = carried(forward.V[f], i, j, memory)
-            best, b = partner(backward, least, j, V, forward.S, f, left, below, -np.inf, penalty)
-            if b >= 0:
-                cost[f], label[f] = forward.C[f] + leg + best, b
+        cost[f], label[f] = _joined(
+            forward, f, backward, least, side, memory, penalty, t_max, half, limit
+        )
     return cost, label
 
 

@@ -20,6 +20,7 @@ from windopt.solving.exact.master import Duals, Master
 from windopt.solving.exact.network import Floats, Network, Side
 from windopt.solving.exact.ng_neighbourhoods import Neighbourhoods
 from windopt.solving.exact.subset_row_cuts import Column
+from windopt.solving.exact.waiting_labels import Span
 
 TOLERANCE = 1e-6
 """Reduced costs above minus this are not negative: the master's duals are no better."""
@@ -92,7 +93,7 @@ class Pricer:
 
         def half(side: Side, network: Network) -> tuple[Labels, bool]:
             return labels(
-                side, prices, memory, network.t_max, network.half, bucket(network), exact,
+                side, prices, memory, Span(network.t_max, network.half, bucket(network)), exact,
                 keep or capacity, UNBOUNDED, capacity, self.clock.stop,
             )  # fmt: skip
 

@@ -159,25 +159,18 @@ def tighten(
 
     Parameters
     ----------
-    reduced
-        A guess at the reduced costs, to begin with the flights that matter.
-    rows
-        Rank-one rows to begin with.
+    reduced, rows
+        A guess at the reduced costs, and rank-one rows to begin with.
     counts
         Least and largest number of flights of each station, and of all, shape ``(k + 1, 2)``.
-    target
-        Only plans cheaper than this are looked for.
-    prove
-        Told of each bound on the plans over ``pool`` that are cheaper than ``target``.
+    target, prove
+        Only plans cheaper than ``target`` are looked for; ``prove`` is told of bounds on them.
 
     Returns
     -------
     What is left; None where no flight is, so that ``target`` is a bound.
     """
-    inside = np.zeros(len(pool), bool)
-    inside[np.argsort(reduced, kind="stable")[:FIRST]] = True
-    selection = Selection(search.n, counts, rows, search.forfeit)
-    selection.add(pool.kept(inside))
+    selection, inside = _selected(pool, reduced, rows, counts, search)
     before, larger = -np.inf, False
     for _ in range(ROUNDS):
         duals, x, reduced = price_out(selection, pool, inside, search.clock)
@@ -189,20 +182,39 @@ def tighten(
             prove(target)
             return None
         prove(value)
-        flown = x > 1e-6
-        if len(pool) <= SMALL or (x[flown] > 1 - 1e-6).all():
+        stalls = value - before < (HELPFUL if len(pool) <= SATISFIED else BARELY) * gap
+        if len(pool) <= SMALL or _whole(x) or (stalls and larger):
             break
-        if value - before < (HELPFUL if len(pool) <= SATISFIED else BARELY) * gap:
-            if larger:
-                break
-            larger = True
-        found = _violated(selection.members[flown], x[flown], larger, search.clock)
-        if not found.m:
+        larger, before = larger or stalls, value
+        if not _cut_off(selection, x, larger, search.clock):
             break
-        selection.cut(found)
-        before = value
     rows = selection.rows.kept(duals.penalty > 1e-7)
     return Tightened(pool, reduced, rows, value, selection, x)
+
+
+def _selected(
+    pool: Pool, reduced: Floats, rows: Rows, counts: Floats, search: Search
+) -> tuple[Selection, Bools]:
+    """Return a program over the flights that seem to matter, and which they are."""
+    inside = np.zeros(len(pool), bool)
+    inside[np.argsort(reduced, kind="stable")[:FIRST]] = True
+    selection = Selection(search.n, counts, rows, search.forfeit)
+    selection.add(pool.kept(inside))
+    return selection, inside
+
+
+def _whole(x: Floats) -> bool:
+    """Tell whether each flight is flown or not, none in part."""
+    return bool((x[x > 1e-6] > 1 - 1e-6).all())
+
+
+def _cut_off(selection: Selection, x: Floats, larger: bool, clock: Clock) -> bool:
+    """Add rows that the plan ``x`` violates, and tell whether there are any."""
+    flown = x > 1e-6
+    found = _violated(selection.members[flown], x[flown], larger, clock)
+    if found.m:
+        selection.cut(found)
+    return bool(found.m)
 
 
 def _violated(members: Bools, x: Floats, larger: bool, clock: Clock) -> Rows:

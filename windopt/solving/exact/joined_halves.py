@@ -1,0 +1,222 @@
+"""Joined halves: flights made of half flights and hashed on their sets.
+
+A flight is made at the leg during which half of t_max goes by, or of one half alone, as labels are
+in :mod:`windopt.solving.exact.joins`; of those over one set of turbines the fastest is kept.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from windopt.solving.exact.bits import NONE, ONE, bit
+from windopt.solving.exact.compiled import compiled, inlined
+from windopt.solving.exact.half_flights import Halves
+from windopt.solving.exact.hashing import empty_slots, row_hash, same_rows
+from windopt.solving.exact.labels import Ints, Words, price_of
+from windopt.solving.exact.network import SLACK, Floats, Side
+
+
+class Sets(NamedTuple):
+    """Flights, one per set of turbines; the arrays are larger than the flights in use.
+
+    Attributes
+    ----------
+    cost, station, ahead, behind
+        Of each flight: its time, its station, and the halves it is joined from, or -1.
+    set
+        Its turbines as bits; the row after the last in use is scratch.
+    """
+
+    cost: Floats
+    station: Ints
+    ahead: Ints
+    behind: Ints
+    set: Words
+
+
+@compiled
+def _slot(slots: Ints, sets: Sets, row: int, apart: bool) -> np.uint64:
+    """Return the slot of the turbines in ``row``, and of its station where these are ``apart``."""
+    mask = np.uint64(len(slots) - 1)
+    slot = row_hash(sets.set, row, sets.station[row] if apart else 0) & mask
+    while slots[slot] >= 0:
+        other = slots[slot]
+        alike = not apart or sets.station[other] == sets.station[row]
+        if alike and same_rows(sets.set, other, row):
+            break
+        slot = (slot + ONE) & mask
+    return slot
+
+
+@inlined
+def _record(
+    sets: Sets, slots: Ints, count: int, cost: float, d: int, ahead: int, behind: int, apart: bool
+) -> tuple[Ints, int, bool]:
+    """Keep the flight whose turbines are in row ``count`` if it is the fastest of its set.
+
+    Returns the hash table, the number of flights in use, and whether there was room.
+    """
+    sets.station[count] = d
+    slot = _slot(slots, sets, count, apart)
+    row = slots[slot]
+    if row >= 0 and sets.cost[row] <= cost:
+        return slots, count, True
+    if row < 0:
+        if count == len(sets.cost) - 1:
+            return slots, count, False
+        row = slots[slot] = count
+        count += 1
+        if 2 * count > len(slots):
+            slots = empty_slots(4 * len(slots))
+            for old in range(count):
+                slots[_slot(slots, sets, old, apart)] = old
+    sets.cost[row], sets.station[row], sets.ahead[row], sets.behind[row] = cost, d, ahead, behind
+    return slots, count, True
+
+
+@compiled
+def _union(sets: Sets, count: int, a: Words, i: int, b: Words, j: int) -> None:
+    """Write the turbines of two halves, or of one where j < 0, into row ``count``."""
+    for word in range(sets.set.shape[1]):
+        sets.set[count, word] = a[i, word] | (b[j, word] if j >= 0 else NONE)
+
+
+@compiled
+def _disjoint(a: Words, i: int, b: Words, j: int) -> bool:
+    common = NONE
+    for word in range(a.shape[1]):
+        common |= a[i, word] & b[j, word]
+    return bool(common == NONE)
+
+
+class Terms(NamedTuple):
+    """What flights of one station keep to.
+
+    Attributes
+    ----------
+    d
+        The station.
+    t_max, half
+        Longest flight, and when its halves meet.
+    limit
+        Reduced cost that none exceeds.
+    width
+        Of a time bucket of halves.
+    apart
+        Whether to keep a flight over each set for each station.
+    """
+
+    d: int
+    t_max: float
+    half: float
+    limit: float
+    width: float
+    apart: bool
+
+
+@inlined
+def _add_behind(
+    backward: Halves, side: Side, terms: Terms, sets: Sets, slots: Ints, count: int
+) -> tuple[Ints, int, bool]:
+    """Add the backward halves that are flights by themselves: half goes by on their first leg."""
+    for b in range(len(backward.T)):
+        first = side.first[backward.node[b]]
+        whole = first + backward.T[b]
+        in_time = first > terms.half and whole <= terms.t_max + SLACK
+        if in_time and backward.C[b] + first <= terms.limit:
+            _union(sets, count, backward.set, b, backward.set, -1)
+            slots, count, fitted = _record(sets, slots, count, whole, terms.d, -1, b, terms.apart)
+            if not fitted:
+                return slots, count, False
+    return slots, count, True
+
+
+@inlined
+def _add_ahead(
+    forward: Halves, f: int, side: Side, terms: Terms, sets: Sets, slots: Ints, count: int
+) -> tuple[Ints, int, bool]:
+    """Add a forward half as a flight by itself."""
+    last = side.last[forward.node[f]]
+    whole = forward.T[f] + last
+    if forward.C[f] + last > terms.limit or whole > terms.t_max + SLACK:
+        return slots, count, True
+    _union(sets, count, forward.set, f, forward.set, -1)
+    return _record(sets, slots, count, whole, terms.d, f, -1, terms.apart)
+
+
+@inlined
+def _add_joined(
+    forward: Halves, f: int, backward: Halves, order: NDArray[np.int64], groups: NDArray[np.int64],
+    side: Side, penalty: Floats, terms: Terms, sets: Sets, slots: Ints, count: int,
+) -> tuple[Ints, int, bool]:  # fmt: skip
+    """Add a forward half with each backward one that goes with it."""
+    buckets = (len(groups) - 1) // len(side.first)
+    i = forward.node[f]
+    for e in range(side.degree[i]):
+        j = side.heads[i, e]
+        t, c = forward.T[f] + side.legs[i, j], forward.C[f] + side.legs[i, j]
+        left = terms.t_max - t + SLACK
+        visited = forward.set[f, j >> 6] & bit(j) != NONE
+        if t <= terms.half or left < 0.0 or visited:
+            continue
+        first = j * buckets
+        for group in range(first, first + min(buckets, int(left / terms.width) + 1)):
+            for b in order[groups[group] : groups[group + 1]]:
+                cost = c + backward.C[b]
+                if cost > terms.limit:
+                    break
+                if backward.T[b] > left or not _disjoint(forward.set, f, backward.set, b):
+                    continue
+                for word in range(len(penalty) // 64):
+                    cost += price_of(forward.S[f, word] & backward.S[b, word], word, penalty)
+                if cost > terms.limit:
+                    continue
+                _union(sets, count, forward.set, f, backward.set, b)
+                whole = t + backward.T[b]
+                slots, count, fitted = _record(
+                    sets, slots, count, whole, terms.d, f, b, terms.apart
+                )
+                if not fitted:
+                    return slots, count, False
+    return slots, count, True
+
+
+@compiled
+def join_halves(
+    forward: Halves,
+    backward: Halves,
+    order: NDArray[np.int64],
+    groups: NDArray[np.int64],
+    side: Side,
+    penalty: Floats,
+    terms: Terms,
+    sets: Sets,
+    slots: Ints,
+    count: int,
+    stop: NDArray[np.uint8],
+) -> tuple[Ints, int, bool]:
+    """Add the flights of one station to ``sets``.
+
+    Parameters
+    ----------
+    order, groups
+        Backward halves, cheapest first within each turbine and time bucket: bucket b of turbine
+        j is ``order[groups[j * buckets + b] : groups[j * buckets + b + 1]]``.
+    slots
+        Hash table of the flights in ``sets``, a power of two long: rows, or -1.
+
+    Returns
+    -------
+    The hash table, the number of flights in ``sets``, and whether all fitted.
+    """
+    slots, count, fitted = _add_behind(backward, side, terms, sets, slots, count)
+    for f in range(len(forward.T)):
+        if not fitted or stop[0] != 0:
+            return slots, count, False
+        slots, count, fitted = _add_ahead(forward, f, side, terms, sets, slots, count)
+        if fitted:
+            slots, count, fitted = _add_joined(
+                forward, f, backward, order, groups, side, penalty, terms, sets, slots, count
+            )
+    return slots, count, fitted
