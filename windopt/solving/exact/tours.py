@@ -46,7 +46,7 @@ class Legs(NamedTuple):
             np.array(between),
             np.array([network.back for network in networks]),
             np.array([network.t_max for network in networks]),
-            search.counts[:-1, 1],
+            np.ascontiguousarray(search.counts[:-1, 1]),  # as with one station: compiled once
             search.prize,
         )
 
