@@ -96,6 +96,26 @@ def test_time_limit_is_kept_with_a_plan_and_a_bound():
     duration_is_kept(instance, result.solution)
 
 
+def test_without_memory_for_any_label_memory_is_the_reason(monkeypatch):
+    instance = grid(5, 800.0)
+    monkeypatch.setattr("windopt.solving.exact.pricing.Pricer.capacity", lambda *_: 1)
+    result = column_generation(instance)
+    assert result.status is Status.FEASIBLE
+    assert "memory ran out" in result.reason
+    assert 0 < result.bound < result.objective
+    duration_is_kept(instance, result.solution)
+
+
+@pytest.mark.parametrize("memory", [1e8, 3e8])
+def test_a_small_memory_leaves_a_plan_and_a_bound(memory):
+    instance = grid(14, 6000.0)
+    result = column_generation(instance, time_limit=2.0, memory=memory)
+    assert result.status is Status.FEASIBLE
+    assert "ran out" in result.reason
+    assert 0 < result.bound < result.objective
+    duration_is_kept(instance, result.solution)
+
+
 @pytest.mark.parametrize("labels", [40, 200, 1000])
 def test_too_many_labels_for_memory_leave_a_plan_and_a_bound(monkeypatch, labels):
     instance = grid(5, 800.0)
@@ -122,6 +142,7 @@ def test_no_time_at_all_still_gives_a_plan_and_a_bound():
     best = column_generation(instance)
     result = column_generation(instance, time_limit=0.0)
     assert result.status is Status.FEASIBLE
+    assert "time ran out" in result.reason
     assert 0 < result.bound <= best.objective <= result.objective < 1.2 * best.objective
     duration_is_kept(instance, result.solution)
 

@@ -57,7 +57,7 @@ def column_generation(
     start
         A plan to improve on; one that does not keep the limits is passed over.
     memory
-        What labels and flights may take [bytes].
+        What labels and flights may take [bytes]; HiGHS and the programs it solves are not counted.
     progress
         Called with objective and bound [s] whenever one of them improves.
 
@@ -71,15 +71,17 @@ def column_generation(
         search = Search(instance, clock, gap, progress)
         if search.unreachable.size:
             return _infeasible(search)
+        stopped, lacking = Status.FEASIBLE, "time"
         try:
             _begin(search, start, seed)
             _prove(search, memory, seed)
-            stopped = Status.FEASIBLE
-        except (OutOfTime, LabelsOverflow):
-            stopped = Status.FEASIBLE
+        except OutOfTime:
+            pass
+        except LabelsOverflow:
+            lacking = "memory"
         except KeyboardInterrupt:
             stopped = Status.INTERRUPTED
-        return _result(search, stopped)
+        return _result(search, stopped, lacking)
 
 
 def _require_limits(time_limit: float, gap: float, memory: float) -> None:
@@ -143,7 +145,7 @@ def _narrow(relaxation: Relaxation, gap: float) -> bool:
     return True
 
 
-def _result(search: Search, stopped: Status) -> Result[tuple[Route, ...]]:
+def _result(search: Search, stopped: Status, lacking: str) -> Result[tuple[Route, ...]]:
     """Return what is known."""
     runtime = search.clock.elapsed
     bound = search.bound * search.unit
@@ -151,7 +153,7 @@ def _result(search: Search, stopped: Status) -> Result[tuple[Route, ...]]:
         return Result(Status.NO_SOLUTION, None, inf, bound, runtime, SOURCE)
     status = Status.OPTIMAL if search.closed else stopped
     objective = search.objective * search.unit
-    reason = "Not proved optimal: time or memory ran out." if status is Status.FEASIBLE else ""
+    reason = f"Not proved optimal: {lacking} ran out." if status is Status.FEASIBLE else ""
     effort = Effort(lp_bound=search.lp_bound * search.unit, nodes=search.nodes)
     found = Result(status, search.routes(), objective, bound, runtime, SOURCE, reason)
     return replace(found, effort=effort)

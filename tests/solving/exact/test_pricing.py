@@ -1,5 +1,6 @@
 """Pricing, enumeration and cuts against a look at every flight."""
 
+from dataclasses import replace
 from itertools import permutations
 from math import inf
 
@@ -15,6 +16,7 @@ from windopt.solving.exact.pricing import Pricer
 from windopt.solving.exact.relaxation import Relaxation
 from windopt.solving.exact.search import Search, alone
 from windopt.solving.exact.subset_row_cuts import Cuts
+from windopt.solving.exact.waiting_labels import Span, rooms
 
 
 def instance(seed, n=7, k=2):
@@ -112,6 +114,18 @@ def test_cuts_that_overflow_are_taken_back(setting, monkeypatch):
     assert not relaxation.cut()
     assert len(relaxation.master.cuts) == held
     assert relaxation.value == pytest.approx(before, abs=1e-3)
+
+
+@pytest.mark.parametrize("memory", [1e8, 3e8, 4e9])
+def test_labels_take_no_more_than_their_share_of_memory(setting, memory):
+    _, relaxation, _ = setting
+    pricer = replace(relaxation.pricer, memory=memory)
+    prices = relaxation.master.cuts.prices(np.zeros(7), np.zeros(len(relaxation.master.cuts)))
+    found, waiting = rooms(pricer.capacity(prices), prices.memory.shape, Span(1.0, 0.5, 0.1))
+    kept = sum(column.nbytes for column in found)
+    at_work = kept + sum(column.nbytes for column in waiting)
+    sides = 2 * len(pricer.networks)
+    assert sides * kept + min(sides, pricer.clock.threads) * at_work <= 1.01 * memory
 
 
 def test_the_least_reduced_cost_is_found(setting):
