@@ -2,8 +2,9 @@
 
 FLORIS has the same algorithm, ``YawOptimizationScipy``, which starts where the rotors face the wind
 and asks FLORIS for one farm power at a time, differences included. This one starts from either side
-and asks windopt's twin of the same wakes for all differences at once: the quicker of the two, and
-the better where they differ.
+and asks windopt's twin of the same wakes for all differences at once. On the five instances that
+both were measured on it was the quicker, and gained as much or more; FLORIS's own took 12 to 216 s
+of a processor on the four of them with 25 turbines.
 """
 
 from math import inf, radians

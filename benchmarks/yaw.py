@@ -83,7 +83,7 @@ METHODS: dict[str, Method] = {
     "floris-slsqp": in_floris("slsqp"),
 }
 ONLY_NAMED = {"floris-slsqp"}
-"""Methods that take minutes on 25 turbines, and run only where they are asked for."""
+"""Methods that took 12 to 216 s on 25 turbines, and run only where they are asked for."""
 
 
 def _answer(results: Sequence[Result[Floats]]) -> tuple[Floats, str, float]:

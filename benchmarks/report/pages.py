@@ -98,21 +98,24 @@ the wind.
 
 SLSQP on windopt's wakes is the rival to watch: it gains about as much as the nonlinear program,
 in more time, and where it gains more the third table says so. FLORIS's own asks for one farm
-power at a time, takes far longer, and was measured on a few small farms only. None of these
-searches proves that its set-points are the best.
+power at a time; it was measured on five small instances only, and took 12 to 216 s on those of 25
+turbines. None of these searches proves that its set-points are the best.
 
-Seconds are of the processor, from the farm and the wind to the set-points, in one process, the
-methods of an instance one after the other; what does not depend on the farm was compiled and
-imported before. ``grid5x5-5D-272`` is 25 turbines 5 diameters apart in 8 m/s from 272 degrees. A
-``table`` has set-points for each of 72 directions; ``robust`` is one set-point in a scatter of 3
-degrees; ``steps`` are twelve between which a nacelle turns by 3 degrees at most, to which all but
-the nonlinear program are clipped afterwards. :doc:`/benchmarks/generated/yaw-cases` has windopt's
-methods and FLORIS's case by case.
+Seconds are of the processor, from the farm and the wind to the set-points, in one process; what
+does not depend on the farm was compiled and imported before. Methods were measured in several runs,
+with other work on the machine, so ratios are rough; the commands are below. The nonlinear program
+proves its bound within its time. Serial refine is timed without the bound that
+:func:`windopt.plan_yaw` adds to it. ``grid5x5-5D-272`` is 25 turbines 5 diameters apart in 8 m/s
+from 272 degrees. A ``table`` has set-points for each of 72 directions; ``robust`` is one set-point
+in a scatter of 3 degrees; ``steps`` are twelve between which a nacelle turns by 3 degrees at most,
+to which all but the nonlinear program are clipped afterwards.
+:doc:`/benchmarks/generated/yaw-cases` has windopt's methods and FLORIS's case by case.
 """
 
 YAW_CASES = """\
 Gains and times are those of :doc:`/benchmarks/generated/yaw`. No set-points deliver more than the
-bound, which is windopt's; how much of the distance to it is the bound's own, nobody knows.
+bound, the least that any method of windopt proved for the instance; how much of the distance to it
+is the bound's own, nobody knows.
 """
 
 FORECAST = """\

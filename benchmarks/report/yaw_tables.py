@@ -7,6 +7,7 @@ the same. Every power is FLORIS's own, whoever found the set-points.
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import product
 from statistics import mean, median
 
 from benchmarks.case import Record
@@ -21,9 +22,6 @@ RIVALS = {
     "slsqp": "SLSQP on windopt's wakes",
 }
 NAMES = {**OURS, "algorithm-1": "the paper's Algorithm 1", **RIVALS}
-BESIDE = {"nlp": tuple(RIVALS), "serial-refine": (FLORIS,)}
-"""Whose set-points a method should be no worse than."""
-
 NEAR = 0.02
 """How many points below FLORIS's a gain may be and still count as no less."""
 
@@ -150,7 +148,7 @@ def every_method(records: Sequence[Record]) -> Rows:
 
 def where_rivals_gain_more(records: Sequence[Record]) -> Rows:
     """Return a row for each answer that gains less than a rival's, the farthest behind first."""
-    beside = [(method, rival) for method, rivals in BESIDE.items() for rival in rivals]
+    beside = product(OURS, RIVALS)
     pairs = [pair for method, rival in beside for pair in _pairs(records, method, rival)]
     behind = [pair for pair in pairs if pair.points < -EQUAL]
     rows = [["instance", "method", "rival", "points less"]]
@@ -202,8 +200,10 @@ def _answer(lines: Mapping[str, Record], method: str) -> list[str]:
 
 
 def _room(lines: Mapping[str, Record], method: str) -> str:
-    record = lines.get(method, {})
-    return f"{record['bound'] / record['power']:.3f}" if record.get("bound") else "-"
+    """Return the least bound that any method proved, over the power of this method's set-points."""
+    bounds = [record["bound"] for record in lines.values() if record.get("bound")]
+    power = lines.get(method, {}).get("power")
+    return f"{min(bounds) / power:.3f}" if bounds and power else "-"
 
 
 def _number(value: float) -> str:

@@ -82,6 +82,17 @@ def _line():
 
 
 @pytest.fixture
+def rows():
+    """Return the rows of a table as mappings from its head."""
+
+    def mapped(table):
+        head, *found = table
+        return [dict(zip(head, row, strict=True)) for row in found]
+
+    return mapped
+
+
+@pytest.fixture
 def lines():
     """Two farms by an exact method and a heuristic, and one case that failed."""
     return [

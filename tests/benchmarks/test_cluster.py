@@ -9,13 +9,12 @@ def test_farms_go_to_the_first_processor_that_has_time():
     assert processors([400.0, 100.0]) == 2  # the first is late, wherever it is
 
 
-def test_a_farm_counts_with_its_mean(line):
+def test_a_farm_counts_with_its_mean(line, rows):
     times = [
         line("exact", 1.0, 1.0, seconds, instance=f"{farm}-w10-090-d{dwell}")
         for farm in "abc"
         for dwell, seconds in (("000", 100.0), ("060", 200.0))
     ]
-    head, row = needed(times)
-    about = dict(zip(head, row, strict=True))
+    (about,) = rows(needed(times))
     assert (about["farms"], about["plans"], about["sum"]) == ("3", "6", "450")
     assert (about["processors"], about["late farms"]) == ("2", "0")

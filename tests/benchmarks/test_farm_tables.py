@@ -3,11 +3,6 @@
 from benchmarks.report.farm_tables import every_farm, proofs, unproved, whole_farms
 
 
-def rows(table):
-    head, *found = table
-    return [dict(zip(head, row, strict=True)) for row in found]
-
-
 def farms(line):
     return [
         line("exact", 100.0, 100.0, 2.0, status="optimal", limit=300.0),
@@ -23,18 +18,18 @@ def test_the_longest_limit_of_the_exact_method_counts(line):
     assert len(whole_farms([*shorter, *farms(line)])) == 5
 
 
-def test_proofs_are_counted_for_each_dwell(line):
+def test_proofs_are_counted_for_each_dwell(line, rows):
     at_once, inspected = rows(proofs(farms(line)))
     assert (at_once["proved"], at_once["median s"]) == ("1 of 3", "2.0")
     assert (at_once["gap of the rest: median"], at_once["worst"]) == ("12.50%", "20.00%")
     assert (inspected["proved"], inspected["without a plan"]) == ("0 of 2", "1")
 
 
-def test_what_is_not_proved_is_listed_by_its_gap(line):
+def test_what_is_not_proved_is_listed_by_its_gap(line, rows):
     assert [row["gap"] for row in rows(unproved(farms(line)))] == ["5.00%", "20.00%", "25.00%"]
 
 
-def test_every_farm_has_a_row_whatever_came_of_it(line):
+def test_every_farm_has_a_row_whatever_came_of_it(line, rows):
     *_, failed = rows(every_farm(farms(line)))
     assert (failed["status"], failed["plan s"], failed["farm"]) == ("failed", "-", "-")
     assert rows(every_farm(farms(line)))[1]["gap"] == "20.00%"

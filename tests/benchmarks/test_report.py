@@ -19,19 +19,14 @@ from benchmarks.report.routing_tables import (
 INDEX = ROOT / "docs" / "benchmarks" / "index.rst"
 
 
-def rows(table):
-    head, *found = table
-    return [dict(zip(head, row, strict=True)) for row in found]
-
-
-def test_each_method_is_measured_by_the_best_bound(lines):
+def test_each_method_is_measured_by_the_best_bound(lines, rows):
     exact, pyvrp, broken = rows(by_method(lines, best_known(lines)))
     assert (exact["proved"], exact["CPU s a plan: median"]) == ("1", "6.0")
     assert pyvrp["worst"] == "20.00%"
     assert broken["failed"] == "1"
 
 
-def test_heuristics_are_counted_that_found_the_proved_optimum(lines, line):
+def test_heuristics_are_counted_that_found_the_proved_optimum(lines, line, rows):
     longer = line("exact", 240.0, 240.0, 99.0, instance="b-w10-090-d000", status="optimal")
     known = best_known([*lines, longer | {"time_limit": 300.0}])
     exact, pyvrp, broken = rows(beside_optima(complete(lines), known))
@@ -41,14 +36,14 @@ def test_heuristics_are_counted_that_found_the_proved_optimum(lines, line):
     assert broken["optimum found"] == "0"
 
 
-def test_each_instance_shows_every_method_and_what_failed(lines):
+def test_each_instance_shows_every_method_and_what_failed(lines, rows):
     first, second = rows(by_instance(complete(lines), best_known(lines)))
     assert first["exact"] == "proved, 2.0 s"
     assert first["broken"] == "failed"
     assert second["best plan s"] == "240.00"
 
 
-def test_relaxations_are_measured_by_the_best_plan(lines, line):
+def test_relaxations_are_measured_by_the_best_plan(lines, line, rows):
     exact = {**lines[0], "lp_bound": 90.0}
     lp = line("time-flow-lp", None, 60.0, 1.0, status="no_solution")
     flow, columns = rows(relaxation_strength([exact, lp], best_known([exact, lp])))
@@ -67,7 +62,7 @@ def test_of_several_lines_of_a_case_the_last_counts(lines, tmp_path):
     assert kept["objective"] == 249.0
 
 
-def test_what_was_run_is_told_by_command(lines):
+def test_what_was_run_is_told_by_command(lines, rows):
     (told,) = rows(runs(lines))
     assert told["command"] == "``python -m benchmarks run routing``"
     assert (told["cases"], told["failed"], told["machine"]) == ("5", "1", "one, 1 processors")

@@ -64,19 +64,20 @@ LINES = [
 ]
 
 
-def rows(table):
-    head, *found = table
-    return [dict(zip(head, row, strict=True)) for row in found]
-
-
-def test_gains_differ_by_points_and_times_by_a_ratio():
+def test_gains_differ_by_points_and_times_by_a_ratio(rows):
     ahead, behind, _, _ = rows(beside_floris(LINES, "nlp"))
     assert (ahead["points more"], ahead["times faster"]) == ("+0.300", "40")
     assert (behind["points more"], behind["times faster"]) == ("-0.030", "30")
     assert ahead["bound over power"] == "1.247"  # 55 MW over 44.12 MW
 
 
-def test_a_case_counts_as_no_less_within_two_hundredths_of_a_point():
+def test_the_least_bound_of_any_method_measures_all(rows):
+    refined = line(AHEAD, "serial-refine", 0.1, 0.01, bound=8e7)
+    assert rows(beside_floris([*LINES, refined], "serial-refine"))[0]["bound over power"] == "1.250"
+    assert rows(beside_floris(LINES, "serial-refine"))[0]["bound over power"] == "-"
+
+
+def test_a_case_counts_as_no_less_within_two_hundredths_of_a_point(rows):
     (program,) = rows(summary(LINES))
     assert (program["cases"], program["failed"]) == ("3", "1")
     assert program["gain no less than FLORIS's - 0.02 points"] == "2 of 3"
@@ -84,7 +85,7 @@ def test_a_case_counts_as_no_less_within_two_hundredths_of_a_point():
     assert program["points more: mean"] == "+0.090"
 
 
-def test_tables_of_winds_are_not_timed_among_single_winds():
+def test_tables_of_winds_are_not_timed_among_single_winds(rows):
     single, table = rows(by_size(LINES))
     assert (single["set for"], single["times faster: least"], single["most"]) == (
         "one wind",
@@ -94,7 +95,7 @@ def test_tables_of_winds_are_not_timed_among_single_winds():
     assert (table["set for"], table["median"]) == ("table", "6")
 
 
-def test_where_a_rival_gains_more_is_said():
+def test_where_a_rival_gains_more_is_said(rows):
     ahead = line(AHEAD, "slsqp", 0.1031, 0.3)
     behind = {"method": "nonlinear program", "rival": "FLORIS's serial refine"}
     assert rows(where_rivals_gain_more([*LINES, ahead])) == [
@@ -106,9 +107,17 @@ def test_where_a_rival_gains_more_is_said():
             "points less": "0.0100",
         },
     ]
+    refined = line(AHEAD, "serial-refine", 0.1, 0.01)
+    first = rows(where_rivals_gain_more([*LINES, ahead, refined]))[0]
+    assert first == {
+        "instance": AHEAD,
+        "method": "serial refine on compiled wakes",
+        "rival": "SLSQP on windopt's wakes",
+        "points less": "0.3100",
+    }
 
 
-def test_all_methods_stand_side_by_side_where_rivals_ran():
+def test_all_methods_stand_side_by_side_where_rivals_ran(rows):
     (ahead,) = rows(every_method([*LINES, line(AHEAD, "algorithm-1", 0.0, 0.0)]))
     assert ahead == {
         "instance": AHEAD,
@@ -119,7 +128,7 @@ def test_all_methods_stand_side_by_side_where_rivals_ran():
     assert every_method(LINES) == [["instance"]]
 
 
-def test_what_failed_and_what_was_not_measured_is_said():
+def test_what_failed_and_what_was_not_measured_is_said(rows):
     *_, lost = rows(beside_floris(LINES, "nlp"))
     assert lost["windopt: gain"] == "failed"
     assert rows(beside_floris(LINES, "serial-refine"))[0]["windopt: gain"] == "not measured"
