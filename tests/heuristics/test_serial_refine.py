@@ -38,6 +38,20 @@ def test_ctrl_c_keeps_the_rotors_turned_so_far(steered, row, monkeypatch):
     assert result.found() == pytest.approx([0.3, 0.0, 0.0])
 
 
+def test_ctrl_c_while_the_wakes_compile_leaves_the_rotors_facing_the_wind(
+    steered, row, monkeypatch
+):
+    def stopped(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("windopt.heuristics.serial_refine.Sweep", stopped)
+    problem = steered(row(3), direction=272.0)
+    result = serial_refine(problem)
+    assert result.status is Status.INTERRUPTED
+    assert (result.found() == 0).all()
+    assert result.objective == pytest.approx(float(farm_power(problem, np.zeros(3))))
+
+
 @pytest.mark.parametrize("direction", [272.0, 275.0])
 def test_it_finds_what_floris_finds(steered, direction):
     floris = pytest.importorskip("floris")

@@ -74,6 +74,20 @@ def test_no_time_leaves_the_rotors_facing_the_wind(steered, row):
     assert (result.found() == 0).all()
 
 
+def test_ctrl_c_while_the_wakes_compile_leaves_the_rotors_facing_the_wind(
+    steered, row, monkeypatch
+):
+    def stopped(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(farm_yaw, "Sweep", stopped)
+    problem = steered(row(3), direction=272.0)
+    result = steer(problem)
+    assert result.status is Status.INTERRUPTED
+    assert (result.found() == 0).all()
+    assert result.objective == pytest.approx(float(farm_power(problem, np.zeros(3))))
+
+
 def test_an_ipopt_that_does_not_converge_is_said(steered, row, monkeypatch):
     monkeypatch.setattr(farm_yaw, "FROM_NEARBY", {"max_iter": 0})
     monkeypatch.setattr(farm_yaw, "FROM_AFAR", {"max_iter": 0})

@@ -27,6 +27,12 @@ def test_a_fault_stays_what_it_is():
     assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
 
 
+def test_a_fault_counts_more_than_ctrl_c():
+    with pytest.raises(ValueError, match="bad"), uninterrupted():
+        signal.raise_signal(signal.SIGINT)
+        raise ValueError("bad")
+
+
 def test_without_ctrl_c_nothing_happens():
     @uninterrupted()
     def doubled(number):

@@ -42,11 +42,13 @@ def serial_refine(
     Misalignments [rad], shape ``(n,)``.
     """
     begin = perf_counter()
-    sweep, status = Sweep(problem, problem.facing), Status.FEASIBLE
+    yaw, status = problem.facing, Status.FEASIBLE
     try:
+        sweep = Sweep(problem, yaw)
+        yaw = sweep.yaw  # turned in place
         refine(sweep, deadline=begin + time_limit)
     except KeyboardInterrupt:
         status = Status.INTERRUPTED
-    power = float(farm_power(problem, sweep.yaw))
+    power = float(farm_power(problem, yaw))
     runtime = perf_counter() - begin
-    return Result(status, sweep.yaw, power, problem.bound, runtime, UNWAKED)
+    return Result(status, yaw, power, problem.bound, runtime, UNWAKED)

@@ -71,12 +71,12 @@ def column_generation(
         search = Search(instance, clock, gap, progress)
         if search.unreachable.size:
             return _infeasible(search)
-        stopped, lacking = Status.FEASIBLE, "time"
+        stopped, lacking = Status.FEASIBLE, ""
         try:
             _begin(search, start, seed)
             _prove(search, memory, seed)
         except OutOfTime:
-            pass
+            lacking = "time"
         except LabelsOverflow:
             lacking = "memory"
         except KeyboardInterrupt:
@@ -146,14 +146,16 @@ def _narrow(relaxation: Relaxation, gap: float) -> bool:
 
 
 def _result(search: Search, stopped: Status, lacking: str) -> Result[tuple[Route, ...]]:
-    """Return what is known."""
+    """Return what is known, and what ran out before it was proved."""
     runtime = search.clock.elapsed
     bound = search.bound * search.unit
     if not search.found:
         return Result(Status.NO_SOLUTION, None, inf, bound, runtime, SOURCE)
     status = Status.OPTIMAL if search.closed else stopped
     objective = search.objective * search.unit
-    reason = f"Not proved optimal: {lacking} ran out." if status is Status.FEASIBLE else ""
+    reason = ""
+    if status is Status.FEASIBLE:
+        reason = f"Not proved optimal: {lacking} ran out." if lacking else "Not proved optimal."
     effort = Effort(lp_bound=search.lp_bound * search.unit, nodes=search.nodes)
     found = Result(status, search.routes(), objective, bound, runtime, SOURCE, reason)
     return replace(found, effort=effort)

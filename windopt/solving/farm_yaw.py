@@ -85,7 +85,8 @@ def steer(
     """
     begin = perf_counter()
     deadline = begin + time_limit
-    best, status, reason = judged(problem, problem.facing), Status.FEASIBLE, ""
+    best = Candidate(float(farm_power(problem, problem.facing)), problem.facing)
+    status, reason = Status.FEASIBLE, ""
     bound, source = problem.bound, UNWAKED
     try:
         if best.power < (1 - GAP) * bound and perf_counter() < deadline:

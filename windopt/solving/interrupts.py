@@ -1,4 +1,4 @@
-"""Ctrl-C at the right moment: where nobody can be hurt by an exception."""
+"""Ctrl-C put off: what must not be broken off ends first, and then the user is heard."""
 
 import signal
 from collections.abc import Iterator
@@ -22,7 +22,10 @@ def ctrl_c_sets(stop: Event) -> Iterator[None]:
 
 @contextmanager
 def uninterrupted() -> Iterator[None]:
-    """Put Ctrl-C off to the end: raised as a compiled loop returns, it would end the process."""
+    """Put Ctrl-C off to the end: raised as a compiled loop returns, it would end the process.
+
+    If the block raises, that exception counts and Ctrl-C is forgotten.
+    """
     stop = Event()
     with ctrl_c_sets(stop):
         yield
