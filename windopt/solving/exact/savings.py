@@ -11,9 +11,13 @@ on a machine's first use too.
 from collections.abc import Iterator
 
 import numpy as np
+from numpy.typing import NDArray
 
 from windopt.solving.exact.network import SLACK, Floats, Network
 from windopt.solving.exact.search import Flight, alone
+
+AT_ONCE = 4096
+"""Pairs of turbines of which those within a flight are dropped together."""
 
 
 def savings(networks: list[Network], most: Floats, prize: Floats) -> list[Flight]:
@@ -21,10 +25,12 @@ def savings(networks: list[Network], most: Floats, prize: Floats) -> list[Flight
 
     Parameters
     ----------
+    networks
+        Of the stations; their unit of time is that of the prizes.
     most
-        Most flights of each station, shape ``(k,)``.
+        Most flights of each station, shape ``(k,)``; ``inf`` where there is no limit.
     prize
-        Cost of leaving each turbine out, shape ``(n,)``.
+        Cost of leaving each turbine out, shape ``(n,)``; ``inf`` where it must be inspected.
     """
     flights = _joined(networks)
     worth = [prize[list(path)].sum() - networks[d].duration(path) for d, path in flights]
@@ -41,26 +47,37 @@ def _joined(networks: list[Network]) -> list[Flight]:
     """Join flights at their ends, turned round where need be, as long as that saves time."""
     lone = alone(networks)
     ending = {path[0]: (d, path) for d, path in lone}  # the flight that begins or ends at each
-    for i, j in _pairs(networks, lone):
-        if i not in ending or j not in ending or ending[i] is ending[j]:
-            continue
-        (d, ahead), (e, behind) = ending[i], ending[j]
-        apart = networks[d].duration(ahead) + networks[e].duration(behind)
-        path = ahead if ahead[-1] == i else ahead[::-1]
-        path += behind if behind[0] == j else behind[::-1]
-        ways = ((s, way) for s in (d, e) for way in (path, path[::-1]))
-        times = ((networks[s].duration(way), s, way) for s, way in ways)
-        fitting = (each for each in times if each[0] <= networks[each[1]].t_max + SLACK)
-        time, station, path = min(fitting, default=(apart, d, ahead))
-        if time < apart:
-            for end in (ahead[0], ahead[-1], behind[0], behind[-1]):
-                ending.pop(end, None)
-            ending[path[0]] = ending[path[-1]] = station, path
+    for pairs in _pairs(networks, lone):
+        ends = np.isin(pairs, list(ending)).all(axis=1)  # most turbines soon lie within a flight
+        for i, j in pairs[ends].tolist():
+            if i not in ending or j not in ending or ending[i] is ending[j]:
+                continue
+            ahead, behind = ending[i], ending[j]
+            if whole := _whole(networks, ahead, behind, i, j):
+                for end in (ahead[1][0], ahead[1][-1], behind[1][0], behind[1][-1]):
+                    ending.pop(end, None)
+                ending[whole[1][0]] = ending[whole[1][-1]] = whole
     return [(station, path) for end, (station, path) in ending.items() if end == path[0]]
 
 
-def _pairs(networks: list[Network], lone: list[Flight]) -> Iterator[tuple[int, int]]:
-    """Yield turbines to visit one after the other, those first whose flights joined save most."""
+def _whole(nets: list[Network], ahead: Flight, behind: Flight, i: int, j: int) -> Flight | None:
+    """Return the fastest flight of two, joined by the leg from i to j, if that saves time."""
+    (d, path), (e, rest) = ahead, behind
+    apart = nets[d].duration(path) + nets[e].duration(rest)
+    joint = path if path[-1] == i else path[::-1]
+    joint += rest if rest[0] == j else rest[::-1]
+    ways = ((s, way) for s in (d, e) for way in (joint, joint[::-1]))
+    times = ((nets[s].duration(way), s, way) for s, way in ways)
+    fitting = (each for each in times if each[0] <= nets[each[1]].t_max + SLACK)
+    time, station, fastest = min(fitting, default=(apart, d, path))
+    return (station, fastest) if time < apart else None
+
+
+def _pairs(networks: list[Network], lone: list[Flight]) -> Iterator[NDArray[np.intp]]:
+    """Yield turbines to visit one after the other, some pairs at a time, shape ``(m, 2)``.
+
+    Those come first whose flights joined save most.
+    """
     turbines = np.array([i for _, (i,) in lone], np.intp)
     apart = np.array([networks[d].duration(path) for d, path in lone])
     joint = np.full((len(lone), len(lone)), np.inf)
@@ -71,4 +88,6 @@ def _pairs(networks: list[Network], lone: list[Flight]) -> Iterator[tuple[int, i
     saved = apart[:, None] + apart[None, :] - joint
     order = np.argsort(-saved, axis=None, kind="stable")[: int((saved > 0.0).sum())]
     first, second = np.unravel_index(order, saved.shape)
-    yield from zip(turbines[first].tolist(), turbines[second].tolist(), strict=True)
+    pairs = np.column_stack([turbines[first], turbines[second]])
+    for begin in range(0, len(pairs), AT_ONCE):
+        yield pairs[begin : begin + AT_ONCE]
