@@ -3,14 +3,14 @@ r"""Farm-wide yaw: turn some rotors aside so that their wakes miss the others.
 :math:`\gamma_{it}` is the misalignment of turbine i in step t. In each wind k of the step it feels
 the wind :math:`u_k U_{ik}` and the turbulence :math:`I_{ik}`, and makes a wake by its thrust
 :math:`C_{ik}`; :math:`W_{pik}` is the deficit that all wakes together leave at point p of its
-rotor, a share :math:`c_p` of it; :math:`p_{ik}` is its power and :math:`E_k` that of the farm:
+rotor, a share :math:`c_p` of it; :math:`e_{ik}` is its power and :math:`E_k` that of the farm:
 
 .. math::
 
     \max \quad & \sum_k w_k E_k                                                       \tag{1} \\
-    \text{s.t.} \quad & E_k \le \sum_i p_{ik}, \quad E_k \le E^{max}, \quad
-        p_{ik} \le r_{ik} P_i\bigl(u_k U_{ik} \cos^{p/3} \gamma_{it}\bigr), \quad
-        p_{ik} \le \overline p_i                                                      \tag{2} \\
+    \text{s.t.} \quad & E_k \le \sum_i e_{ik}, \quad E_k \le E^{max}, \quad
+        e_{ik} \le r_{ik} P_i\bigl(u_k U_{ik} \cos^{q/3} \gamma_{it}\bigr), \quad
+        e_{ik} \le \overline e_i                                                      \tag{2} \\
       & U_{ik}^3 = \sum_p c_p (1 - W_{pik})^3                                         \tag{3} \\
       & W_{pik}^2 + 2 \varepsilon W_{pik} = \sum_j d_{pji}^2(\gamma_{jt}, C_{jk}, I_{jk}) \tag{4} \\
       & C_{ik} = r_{ik} \, C_T(u_k U_{ik}) \cos\gamma_{it}                            \tag{5} \\
@@ -20,16 +20,17 @@ rotor, a share :math:`c_p` of it; :math:`p_{ik}` is its power and :math:`E_k` th
       & |\Delta\theta_t - \gamma_{it} + \gamma_{i,t-1}| \le \dot\gamma                    \tag{8} \\
       & \underline r \le r_{ik} \le 1                                                \tag{9}
 
-One step with one wind is a set-point; one step with several winds is a robust set-point, the best
-on average over a spread of directions and speeds; several steps are a schedule, in which the wind
-turns by :math:`\Delta\theta_t` and a nacelle by at most :math:`\dot\gamma`.
+The turbine's curves are :math:`P_i` and :math:`C_T`, and q is the exponent of the cosine by which
+its power falls. One step with one wind is a set-point; one step with several winds is a robust
+set-point, the best on average over a spread of directions and speeds; several steps are a schedule,
+in which the wind turns by :math:`\Delta\theta_t` and a nacelle by at most :math:`\dot\gamma`.
 
 A turbine may be derated to a share :math:`r_{ik}` of its power, and its thrust falls by as much;
 unless that is asked for, the share is 1, and a farm above its cap is curtailed without regard to
 its wakes. With derating the first and third part of (2) are equalities, so that the set-points add
 up to what the grid takes.
 
-The rated power :math:`\overline p_i` is a bound, and below it :math:`P_i` goes on rising where the
+The rated power :math:`\overline e_i` is a bound, and below it :math:`P_i` goes on rising where the
 wind is stronger. The corner in between would stop a search in which many turbines stand at it.
 
 The wakes come one after the other, so U, W, C and I are functions of the yaws. They are variables
@@ -139,14 +140,14 @@ def farm_yaw(
     m = next(row)
     lower_g, upper_g = np.zeros(m), np.zeros(m)
     if not derated:
-        lower_g[: x.E.size + x.p.size] = -inf
+        lower_g[: x.E.size + x.e.size] = -inf
     if turns is not None:
         constraints += _turns(x, turns, m)  # (8)
         most = np.full(x.gamma[1:].size, turns.most)
         lower_g, upper_g = np.append(lower_g, -most), np.append(upper_g, most)
 
     lower_x, upper_x = _bounds(farm, wakes, x)
-    upper_x[x.E], upper_x[x.p] = cap / scale, farm.rated_powers / scale  # (2)
+    upper_x[x.E], upper_x[x.e] = cap / scale, farm.rated_powers / scale  # (2)
     lower_x[x.gamma], upper_x[x.gamma] = bounds  # (7)
     lower_x[x.r], upper_x[x.r] = least, 1.0  # (9)
     program = SeparableProgram(objective, constraints, lower_x, upper_x, lower_g, upper_g)
@@ -162,13 +163,13 @@ class _Variables(NamedTuple):
     U: Places  # (K, n)
     r: Places  # (K, n)
     E: Places  # (K,)
-    p: Places  # (K, n)
+    e: Places  # (K, n)
     W: Places  # (P, K, n)
 
     @property
     def size(self) -> int:
         """How many there are."""
-        return 1 + int(max(self.p.max(), self.W.max()))
+        return 1 + int(max(self.e.max(), self.W.max()))
 
     @property
     def waked(self) -> NDArray[np.bool_]:
@@ -181,12 +182,12 @@ def _variables(farm: FarmInWind, wakes: Wakes) -> _Variables:
     P, K, n = wakes.W.shape
     place = count()
     shapes = wakes.gamma.shape, (K, n), (K, n), (K, n), (K, n), (K,), (K, n)
-    gamma, C, I, U, r, E, p = (_numbers(place, shape) for shape in shapes)  # noqa: E741
+    gamma, C, I, U, r, E, e = (_numbers(place, shape) for shape in shapes)  # noqa: E741
     W = np.full((P, K, n), -1)
     waked = np.zeros((K, n), dtype=bool)
     waked[wakes.wind, wakes.target] = True
     W[:, waked] = _numbers(place, (P, int(waked.sum())))
-    return _Variables(gamma, C, I, U, r, E, p, W)
+    return _Variables(gamma, C, I, U, r, E, e, W)
 
 
 def _numbers(count: Iterator[int], shape: tuple[int, ...]) -> Places:
@@ -197,15 +198,15 @@ def _numbers(count: Iterator[int], shape: tuple[int, ...]) -> Places:
 def _powers(
     farm: FarmInWind, x: _Variables, row: Iterator[int], scale: float, *, derated: bool
 ) -> Iterator[Family]:
-    K, n = x.p.shape
+    K, n = x.e.shape
     of_farm, of_turbine = _numbers(row, (K,)), _numbers(row, (K, n))
     yield Family(rows.itself(), x.E[None], np.ones((1, K)), of_farm[None])
     shares = np.repeat(of_farm, n)[None]
-    yield Family(rows.itself(), x.p.reshape(1, -1), -np.ones((1, K * n)), shares)
+    yield Family(rows.itself(), x.e.reshape(1, -1), -np.ones((1, K * n)), shares)
     for c, k, i in _kinds(farm):
         curve = farm.curve(c) if derated else farm.curve(c).rising()
         power = rows.power(curve, farm.air_density, scale)
-        v = np.array([x.p[k, i], x.gamma[farm.steps[k], i], x.U[k, i], x.r[k, i]])
+        v = np.array([x.e[k, i], x.gamma[farm.steps[k], i], x.U[k, i], x.r[k, i]])
         yield Family(power, v, farm.speeds[k][None], of_turbine[k, i][None])
 
 
@@ -275,7 +276,7 @@ def _bounds(farm: FarmInWind, wakes: Wakes, x: _Variables) -> tuple[Floats, Floa
 def _start(wakes: Wakes, x: _Variables, cap: float, scale: float) -> Floats:
     start = np.empty(x.size)
     start[x.gamma], start[x.C], start[x.I], start[x.U] = wakes.gamma, wakes.C_T, wakes.I, wakes.U
-    start[x.r], start[x.p] = 1.0, wakes.powers / scale
+    start[x.r], start[x.e] = 1.0, wakes.powers / scale
     start[x.E] = np.minimum(wakes.powers.sum(axis=1), cap) / scale
     start[x.W[:, x.waked]] = wakes.W[:, x.waked]
     return start

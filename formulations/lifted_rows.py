@@ -19,11 +19,11 @@ EPSILON = 5e-5
 def power(curve: Curve, air_density: float, scale: float) -> ca.Function:
     """Return a turbine's row of (2), as a fraction of ``scale``."""
     v, u = ca.SX.sym("v", 4), ca.SX.sym("u")
-    p, gamma, U, r = ca.vertsplit(v)
+    e, gamma, U, r = ca.vertsplit(v)
     density = (air_density / curve.air_density) ** (1 / 3)
     effective = density * u * U * ca.cos(gamma) ** (curve.yaw_exponent / 3)
-    P = linear_pieces(effective, curve.speeds, [p / scale for p in curve.powers], CORNER)
-    return ca.Function("power", [v, u], [p - r * P])
+    P = linear_pieces(effective, curve.speeds, [each / scale for each in curve.powers], CORNER)
+    return ca.Function("power", [v, u], [e - r * P])
 
 
 @cache

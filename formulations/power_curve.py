@@ -12,8 +12,8 @@ import casadi as ca
 import numpy as np
 
 CORNER = 0.035
-"""Half the width over which corners are rounded [m/s]: 3e-4 of a farm's power at the most, and a
-third less work for a search than with 0.02."""
+"""Half the width over which corners are rounded [m/s]: where the slope changes by s, a value is off
+by s times a quarter of this."""
 
 THRUST = (1e-4, 0.9999)
 """Thrust coefficients are kept within these: momentum theory ends at 1."""
@@ -43,7 +43,7 @@ class Curve(NamedTuple):
         return self._replace(speeds=speeds[:m], powers=powers[:m], thrusts=thrusts[:m])
 
     def rising(self) -> "Curve":
-        """Return the part up to the rated power, if the power stays at it, and all else."""
+        """Return the curve up to the rated power, or all of it where the power falls again."""
         top = self.powers.index(max(self.powers))
         m = max(2, top + 1) if min(self.powers[top:]) == self.powers[top] else len(self.speeds)
         return self._replace(

@@ -28,9 +28,13 @@ def test_a_fault_stays_what_it_is():
 
 
 def test_a_fault_counts_more_than_ctrl_c():
-    with pytest.raises(ValueError, match="bad"), uninterrupted():
+    @uninterrupted()
+    def work():
         signal.raise_signal(signal.SIGINT)
         raise ValueError("bad")
+
+    with pytest.raises(ValueError, match="bad"):
+        work()
 
 
 def test_without_ctrl_c_nothing_happens():
