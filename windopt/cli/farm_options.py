@@ -1,7 +1,7 @@
 """What farm is steered and under what, from options in the units people use."""
 
 from dataclasses import dataclass, replace
-from math import inf, radians
+from math import degrees, inf, radians
 from typing import Annotated
 
 import typer
@@ -34,6 +34,7 @@ YawRate = Annotated[float, typer.Option(help="How fast nacelles turn at most [de
 YawThreshold = Annotated[
     float, typer.Option(help="Gain in the farm's power below which nacelles stay [%].")
 ]
+USUAL_RATE = degrees(Pace.rate)
 
 
 @dataclass(frozen=True)
@@ -78,8 +79,8 @@ class SteeringOptions:
 class PaceOptions:
     """How nacelles turn from step to step."""
 
-    yaw_rate: YawRate = 0.3
-    yaw_threshold: YawThreshold = 0.1
+    yaw_rate: YawRate = USUAL_RATE
+    yaw_threshold: YawThreshold = 100 * Pace.threshold
 
     @property
     def pace(self) -> Pace:
