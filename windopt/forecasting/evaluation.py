@@ -95,8 +95,8 @@ def evaluate(
     for rival in LinearAutoregression(history, horizon), ConformalPersistence(history, horizon):
         try:
             rivals.append(rival.fit(before))
-        except InvalidInput as few:
-            notes.append(f"Without {rival.name}: expected {few.field} {few.expected}.")
+        except InvalidInput as mistake:
+            notes.append(f"Without {rival.name}: expected {mistake.field} {mistake.expected}.")
     return backtest([*rivals, *forecasters], replace(after, notes=tuple(notes)))
 
 

@@ -16,7 +16,7 @@ def compiled(function: Function) -> Function:
 def inlined(function: Function) -> Function:
     """Compile ``function`` into those that call it, where a call would cost more than its work.
 
-    Structures of numbers pass for nothing then; one that holds arrays still counts its uses
-    whenever an array is taken out of a structure within it, so nest none of these.
+    Passing tuples of numbers costs nothing then. Do not nest tuples that hold arrays: numba counts
+    a reference whenever one is taken out.
     """
     return cast(Function, nb.njit(inline="always", cache=True, nogil=True)(function))

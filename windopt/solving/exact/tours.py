@@ -46,7 +46,8 @@ class Legs(NamedTuple):
             np.array(between),
             np.array([network.back for network in networks]),
             np.array([network.t_max for network in networks]),
-            np.ascontiguousarray(search.counts[:-1, 1]),  # as with one station: compiled once
+            # Contiguous for any number of stations, or numba would compile a second version.
+            np.ascontiguousarray(search.counts[:-1, 1]),
             search.prize,
         )
 
