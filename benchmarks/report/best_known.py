@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from math import inf, isfinite, nan
 
 from benchmarks.case import Record
+from benchmarks.inspections import NAME
 from benchmarks.report.lines import Rows, answered, number
 
 Instance = tuple[str, str]
@@ -50,6 +51,15 @@ def instance(record: Record) -> Instance:
     return record["instance"], record.get("hash", "")
 
 
+def handle(record: Record) -> str:
+    """Return the farm of a line by the handle in its instance's name, which failed cases have too.
+
+    The name as a whole where it is of another form.
+    """
+    parts = NAME.fullmatch(record["instance"])
+    return parts["farm"] if parts else str(record["instance"])
+
+
 def complete(records: Iterable[Record]) -> list[Record]:
     """Return the lines, those of failed cases with what others say of the same instance."""
     lines = list(records)
@@ -82,6 +92,15 @@ def proved(record: Record) -> bool:
 def planned(records: Iterable[Record]) -> list[Record]:
     """Return the lines that have a plan."""
     return [record for record in answered(records) if record["objective"] is not None]
+
+
+def measurable(records: Iterable[Record], known: Known) -> list[Record]:
+    """Return the lines of instances of which both a plan and a bound are known."""
+    return [
+        record
+        for record in records
+        if known[instance(record)].bound > 0 and isfinite(known[instance(record)].objective)
+    ]
 
 
 def above(record: Record, best: Best) -> float:

@@ -6,7 +6,7 @@ from statistics import median
 
 from benchmarks.case import Record
 from benchmarks.inspections import NAME
-from benchmarks.report.best_known import planned, proved
+from benchmarks.report.best_known import handle, planned, proved
 from benchmarks.report.lines import Rows, grouped, number
 from benchmarks.report.routing_tables import COLUMNS
 
@@ -38,11 +38,11 @@ def whole_farms(records: Sequence[Record]) -> list[Record]:
 def proofs(records: Sequence[Record]) -> Rows:
     """Return a row for each wind and dwell: how many plans were proved, and the gaps of the rest.
 
-    Times are of the proved plans; the last column is of all cases, one after the other.
+    Wall times are of the proved plans; the last column is of all cases, one after the other.
     """
     rows = [
-        ["wind and dwell", "proved", "median s", "longest s", "gap of the rest: median", "worst",
-         "without a plan", "CPU hours of all"]
+        ["wind and dwell", "proved", "wall s: median", "longest", "gap of the rest: median",
+         "worst", "without a plan", "CPU hours of all"]
     ]  # fmt: skip
     for key, mine in sorted(grouped(records, setting).items()):
         times = [record["runtime"] for record in mine if proved(record)]
@@ -70,11 +70,12 @@ def unproved(records: Sequence[Record]) -> Rows:
 
 def every_farm(records: Sequence[Record]) -> Rows:
     """Return a row for each case: size, status, plan, bound, gap and times."""
-    rows = [["farm", "n", "K", "out of reach", "status", "plan s", "bound s", "gap", "s", "CPU s"]]
+    rows = [["farm", "n", "K", "out of reach", "status", "plan s", "bound s", "gap", "wall s",
+             "CPU s"]]  # fmt: skip
     for record in records:
-        facts = ("farm", "turbines", "stations", "unreachable")
+        facts = ("turbines", "stations", "unreachable")
         rows.append(
-            [*(str(record.get(fact, "-")) for fact in facts),
+            [record.get("farm") or handle(record), *(str(record.get(fact, "-")) for fact in facts),
              str(record["status"]).replace("_", " "), *_figures(record)]
         )  # fmt: skip
     return rows

@@ -1,4 +1,8 @@
-"""Pictures of lines; each function draws into an Axes and returns it."""
+"""Pictures of lines; each function draws into an Axes and returns it.
+
+All share one signature, so that pages draw them alike: lines, what is known of their instances,
+which some pictures do without, and the Axes. What each says of itself is the picture's caption.
+"""
 
 from collections.abc import Callable, Iterable, Sequence
 from math import inf
@@ -8,7 +12,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks.case import Record
-from benchmarks.report.best_known import Best, Known, above, instance, methods, planned, proved
+from benchmarks.report.best_known import (
+    Best,
+    Known,
+    above,
+    instance,
+    measurable,
+    methods,
+    planned,
+    proved,
+)
 from benchmarks.report.lines import grouped, number
 
 if TYPE_CHECKING:
@@ -17,7 +30,7 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 
 SHORTEST = 0.01
-"""Time at which curves over time begin [s]."""
+"""Wall time at which curves over time begin [s]."""
 LEAST = 1e-5
 """Distance from the best bound that is drawn as none [-]."""
 SHAPES = "os^Dv<>p"
@@ -26,7 +39,7 @@ FAILED = "X"
 
 
 def profile(records: Sequence[Record], known: Known, ax: "Axes") -> "Axes":
-    """Draw the share of instances that each method has proved within a time."""
+    """Draw the share of instances that each method has proved within a wall time."""
     for method in methods(records):
         mine = [record for record in records if record["method"] == method]
         times = np.sort([record["runtime"] for record in mine if proved(record)])
@@ -34,7 +47,8 @@ def profile(records: Sequence[Record], known: Known, ax: "Axes") -> "Axes":
             shares = np.arange(1, len(times) + 1) / len(mine)
             ends = [r["time_limit"] for r in mine]
             ax.step([*times, max(ends)], [*shares, shares[-1]], where="post", label=method)
-    ax.set(xscale="log", xlabel="time [s]", ylabel="share of instances proved [-]", ylim=(0, 1.02))
+    ax.set(xscale="log", xlabel="wall time [s]", ylabel="share of instances proved [-]")
+    ax.set_ylim(0, 1.02)
     _legend(ax)
     return ax
 
@@ -57,7 +71,7 @@ def distances(records: Sequence[Record], known: Known, ax: "Axes") -> "Axes":
 def gap_over_time(records: Sequence[Record], known: Known, ax: "Axes") -> "Axes":
     """Draw how far the best plan so far is above the best bound known, mean over the instances.
 
-    A curve begins when its method has a plan for every instance.
+    A curve begins when its method has a plan for every instance; one that never has, has none.
     """
     _over_time(records, known, ax, _plans_above)
     ax.set_ylabel("best plan so far above the best bound, mean [%]")
@@ -67,7 +81,7 @@ def gap_over_time(records: Sequence[Record], known: Known, ax: "Axes") -> "Axes"
 def bound_over_time(records: Sequence[Record], known: Known, ax: "Axes") -> "Axes":
     """Draw how far the bound so far is below the best plan known, mean over the instances.
 
-    Methods without a bound have no curve.
+    A curve begins when its method has a bound for every instance; one that never has, has none.
     """
     _over_time(records, known, ax, _bounds_below)
     ax.set_ylabel("bound so far below the best plan, mean [%]")
@@ -82,30 +96,35 @@ def _over_time(
 ) -> None:
     latest = max((record["time_limit"] for record in records), default=1.0)
     times = np.geomspace(SHORTEST, latest, 200)
-    for method in methods(records):
-        mine = [record for record in planned(records) if record["method"] == method]
-        if mine:
-            gaps = np.mean([off(record, known[instance(record)], times) for record in mine], 0)
-            if np.isfinite(gaps).any():
-                ax.plot(times, 100 * np.maximum(gaps, LEAST), label=method)
-    ax.set(xscale="log", yscale="log", xlabel="time [s]")
+    lines = measurable(records, known)
+    for method in methods(lines):
+        mine = [record for record in lines if record["method"] == method]
+        gaps = np.mean([off(record, known[instance(record)], times) for record in mine], 0)
+        if np.isfinite(gaps).any():
+            ax.plot(times, 100 * np.maximum(gaps, LEAST), label=method)
+    ax.set(xscale="log", yscale="log", xlabel="wall time [s]")
     _legend(ax)
 
 
 def _plans_above(record: Record, best: Best, times: Floats) -> Floats:
-    moments = [(0.0, inf), *((time, number(value, inf)) for time, value, _ in record["trace"])]
-    moments.append((record["runtime"], record["objective"]))
+    moments = [(0.0, inf), *((time, number(value, inf)) for time, value, _ in _trace(record))]
     began, objectives = np.array(sorted(moments)).T
     gaps: Floats = np.maximum(_at(times, began, np.minimum.accumulate(objectives)) - best.bound, 0)
-    return gaps / best.bound if best.bound > 0 else np.full(len(times), inf)
+    return gaps / best.bound
 
 
 def _bounds_below(record: Record, best: Best, times: Floats) -> Floats:
-    moments = [(0.0, -inf), *((time, number(value, -inf)) for time, _, value in record["trace"])]
-    moments.append((record["runtime"], number(record["bound"], -inf)))
+    moments = [(0.0, -inf), *((time, number(value, -inf)) for time, _, value in _trace(record))]
     began, bounds = np.array(sorted(moments)).T
     gaps: Floats = np.maximum(best.objective - _at(times, began, np.maximum.accumulate(bounds)), 0)
     return gaps / best.objective
+
+
+def _trace(record: Record) -> Sequence[tuple[float, float | None, float | None]]:
+    """Return times, plans and bounds until the end; a failed case has none."""
+    if record["status"] == "failed":
+        return []
+    return [*record["trace"], (record["runtime"], record["objective"], record["bound"])]
 
 
 def _at(times: Floats, began: Floats, values: Floats) -> Floats:
@@ -121,16 +140,19 @@ def _legend(ax: "Axes") -> None:
 
 
 def growth(records: Sequence[Record], known: Known, ax: "Axes") -> "Axes":
-    """Draw the time to proof over the number of turbines; open marks proved nothing.
+    """Draw the wall time to proof over the number of turbines.
 
-    A method that ended without a proof is marked where it ended, a failed one by a cross.
+    Open marks are where a method ended without a proof, crosses where it failed.
     """
     _sizes(grouped(records, lambda record: str(record["method"])).items(), ax)
     return ax
 
 
 def growth_by_dwell(records: Sequence[Record], known: Known, ax: "Axes") -> "Axes":
-    """Draw the time to proof over the number of turbines; open marks proved nothing."""
+    """Draw the wall time to proof over the number of turbines.
+
+    Open marks are where the method ended without a proof, crosses where it failed.
+    """
     _sizes(grouped(records, lambda record: f"{record['dwell']:g} s at each turbine").items(), ax)
     return ax
 
@@ -146,5 +168,5 @@ def _sizes(series: Iterable[tuple[str, Sequence[Record]]], ax: "Axes") -> None:
             seconds = [float(record.get("runtime") or record["time_limit"]) for record in fate]
             face, mark = f"C{i}" if done else "none", FAILED if failed else shape
             ax.scatter(n, seconds, s=18, c=face, edgecolors=f"C{i}", marker=mark)
-    ax.set(yscale="log", xlabel="turbines", ylabel="time [s]")
+    ax.set(yscale="log", xlabel="turbines", ylabel="wall time [s]")
     _legend(ax)

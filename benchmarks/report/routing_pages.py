@@ -10,6 +10,8 @@ from benchmarks.report.best_known import (
     compared,
     complete,
     contradictions,
+    instance,
+    measurable,
     methods,
 )
 from benchmarks.report.farm_tables import (
@@ -49,10 +51,8 @@ def routing_page(records: Sequence[Record], out: Path) -> Iterator[str]:
     yield rst.title("Inspection flights of real farms")
     yield ROUTING
     yield from _proofs(mine, out)
-    for limit, group in sorted(_by_limit(mine).items()):
-        for together, same in compared(group).items():
-            if len(together) > 1:
-                yield from _comparison(same, mine, out, f"{limit:g}-{len(together)}")
+    for number, same in enumerate(_side_by_side(mine), 1):
+        yield from _comparison(same, mine, out, number)
     yield rst.filled("Plans below a bound that was proved", contradictions(mine, best_known(mine)))
     yield rst.filled("Cases that failed", failures(mine))
     yield rst.origin(mine)
@@ -70,10 +70,20 @@ def _proofs(mine: Sequence[Record], out: Path) -> Iterator[str]:
     )
 
 
+def _side_by_side(mine: Sequence[Record]) -> list[list[Record]]:
+    """Return the lines of methods that ran on the same instances with the same limit."""
+    return [
+        same
+        for _, group in sorted(_by_limit(mine).items())
+        for together, same in compared(group).items()
+        if len(together) > 1
+    ]
+
+
 def _comparison(
-    same: Sequence[Record], mine: Sequence[Record], out: Path, name: str
+    same: Sequence[Record], mine: Sequence[Record], out: Path, number: int
 ) -> Iterator[str]:
-    """Yield a section on methods that ran on the same instances with the same limit."""
+    """Yield the section of this number, on methods that ran side by side."""
     known = best_known(mine)
     instances = len({record["instance"] for record in same})
     count = len(methods(same))
@@ -81,8 +91,12 @@ def _comparison(
     yield rst.title(f"{count} methods with {limit:g} s each, on {instances} instances", "-")
     yield rst.table("Plans beside the best bound", by_method(same, known))
     yield rst.filled("Plans beside the optimum, where it is proved", beside_optima(same, known))
+    left_out = instances - len({instance(record) for record in measurable(same, known)})
+    note = LEFT_OUT.format(count=left_out) if left_out else ""
     for kind, draw in PICTURES.items():
-        yield rst.picture(draw, same, known, path=out / f"routing-{kind}-{name}.png")
+        yield rst.picture(draw, same, known, path=out / f"routing-{kind}-{number}.png")
+    for kind, draw in OVER_TIME.items():
+        yield rst.picture(draw, same, known, path=out / f"routing-{kind}-{number}.png", note=note)
     strength = relaxation_strength(same, known)
     yield rst.filled("Linear relaxations, as a share of the best plan known", strength)
 
@@ -104,17 +118,13 @@ def cases_page(records: Sequence[Record], out: Path) -> Iterator[str]:
     """Yield the page with every method's plan for every instance."""
     mine = real_farms(records)
     known = best_known(mine)
-    sections = [
-        (limit, same)
-        for limit, group in sorted(_by_limit(mine).items())
-        for together, same in compared(group).items()
-        if len(together) > 1
-    ]
+    sections = _side_by_side(mine)
     if not sections:
         return
     yield rst.title("Methods side by side, case by case")
     yield CASES
-    for limit, same in sections:
+    for same in sections:
+        limit = same[0]["time_limit"]
         yield rst.title(f"{len(methods(same))} methods with {limit:g} s each", "-")
         for key, cases in sorted(grouped(same, setting).items()):
             yield rst.table(named(key), by_instance(cases, known))
@@ -147,9 +157,12 @@ def _by_limit(records: Sequence[Record]) -> dict[float, list[Record]]:
 PICTURES = {
     "profile": plots.profile,
     "distances": plots.distances,
+}
+OVER_TIME = {
     "gaps": plots.gap_over_time,
     "bounds": plots.bound_over_time,
 }
+LEFT_OUT = "Instances of which no plan or no bound is known are left out for all methods: {count}."
 
 ROUTING = """\
 Every answer has passed the independent checker. Plans are measured by the best bound that any
@@ -168,16 +181,15 @@ has every farm.
 FARMS = """\
 The exact method's answers within {limit:g} s. A farm has n turbines and K stations, and turbines
 out of reach are left out. "optimal" is proved; otherwise no plan is below the bound, and the gap
-is the share of the plan that is open. CPU s are of the processor.
+is the share of the plan that is open. Wall s are what the limit is of, CPU s are of the processor.
 """
 
 CASES = """\
 A farm has n turbines and K stations. A cell says how far the method's plan is above the best
 bound that any method proved in any time, or "proved" where the method proved its plan itself, and
-the time it took.
+the wall time it took.
 """
 
 GROWTH = """\
-Turbines in a square grid, one wind, stations by the same rule: only the number changes. Full
-marks are proved; open ones ended without a proof, and crosses failed.
+Turbines in a square grid, one wind, stations by the same rule: only the number changes.
 """

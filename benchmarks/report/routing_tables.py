@@ -13,12 +13,13 @@ from benchmarks.report.best_known import (
     Instance,
     Known,
     above,
+    handle,
     instance,
     methods,
     planned,
     proved,
 )
-from benchmarks.report.lines import Rows, answered, number
+from benchmarks.report.lines import Rows, answered, grouped, number
 
 COLUMNS = "exact"
 """The method whose linear relaxation has a column for each flight."""
@@ -27,8 +28,8 @@ COLUMNS = "exact"
 def by_method(records: Sequence[Record], known: Known) -> Rows:
     """Return a row for each method: what it proved, what a plan cost, and how far plans are off."""
     rows = [
-        ["method", "cases", "failed", "proved", "median s to proof", "CPU s a plan: median", "mean",
-         "plan above bound: median", "mean", "worst", "is the best plan"]
+        ["method", "cases", "failed", "proved", "wall s to proof: median", "CPU s a plan: median",
+         "mean", "plan above bound: median", "mean", "worst", "is the best plan"]
     ]  # fmt: skip
     for method in methods(records):
         mine = [record for record in records if record["method"] == method]
@@ -82,25 +83,25 @@ def _share(gap: float) -> str:
 def by_instance(records: Sequence[Record], known: Known) -> Rows:
     """Return a row for each instance: the best known, and each method's distance and time."""
     shown = methods(records)
-    cells: dict[Instance, dict[str, str]] = defaultdict(dict)
-    facts: dict[Instance, Record] = {}
-    for record in records:
-        name = instance(record)
-        cells[name][record["method"]] = _cell(record, known[name])
-        if record["status"] != "failed":
-            facts.setdefault(name, record)
-    rows = [["farm", "n", "K", "out of reach", "best plan s", "best bound s", *shown]]
-    for name, about in sorted(facts.items(), key=lambda item: (item[1]["turbines"], item[0])):
-        best = known[name]
-        rows.append(
-            [*_farm(about), f"{best.objective:.2f}", f"{best.bound:.2f}",
-             *(cells[name].get(method, "") for method in shown)]
-        )  # fmt: skip
-    return rows
+    found = []
+    for name, lines in grouped(records, instance).items():
+        best, about = known[name], next(iter(answered(lines)), lines[0])
+        cells = {record["method"]: _cell(record, best) for record in lines}
+        row = [*_farm(about), _finite(best.objective), _finite(best.bound),
+               *(cells.get(method, "") for method in shown)]  # fmt: skip
+        found.append((about.get("turbines") or inf, name, row))
+    head = ["farm", "n", "K", "out of reach", "best plan s", "best bound s", *shown]
+    return [head, *(row for *_, row in sorted(found))]
 
 
 def _farm(record: Record) -> list[str]:
-    return [str(record[fact]) for fact in ("farm", "turbines", "stations", "unreachable")]
+    """Return name, turbines, stations and what is out of reach, as far as a failed case tells."""
+    facts = ("turbines", "stations", "unreachable")
+    return [record.get("farm") or handle(record), *(str(record.get(fact, "-")) for fact in facts)]
+
+
+def _finite(value: float) -> str:
+    return f"{value:.2f}" if isfinite(value) else "-"
 
 
 def _cell(record: Record, best: Best) -> str:

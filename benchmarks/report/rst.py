@@ -26,10 +26,10 @@ def filled(caption: str, rows: Sequence[Sequence[str]]) -> str:
     return table(caption, rows) if len(rows) > 1 else ""
 
 
-def picture(draw: Callable[..., object], *drawn: object, path: Path) -> str:
-    """Draw into a file, and return the picture over the first line of what draws it.
+def picture(draw: Callable[..., object], *drawn: object, path: Path, note: str = "") -> str:
+    """Draw into a file, and return the picture over what the function that draws says of itself.
 
-    Nothing is returned where there was nothing to draw.
+    A note follows it. Nothing is returned where there was nothing to draw.
     """
     from matplotlib.figure import Figure
 
@@ -39,8 +39,10 @@ def picture(draw: Callable[..., object], *drawn: object, path: Path) -> str:
     if not axes.has_data():
         return ""
     figure.savefig(path, dpi=110, metadata={"Software": None})
-    said = (draw.__doc__ or "").splitlines()[0].removeprefix("Draw ")
-    return f".. figure:: {path.name}\n   :alt: {said}\n\n   {said[:1].upper()}{said[1:]}\n"
+    told = (draw.__doc__ or "").removeprefix("Draw ")
+    caption = " ".join([*told.split(), *note.split()])
+    alt = told.splitlines()[0]
+    return f".. figure:: {path.name}\n   :alt: {alt}\n\n   {caption[:1].upper()}{caption[1:]}\n"
 
 
 def origin(records: Iterable[Record]) -> str:

@@ -18,3 +18,12 @@ def test_a_farm_counts_with_its_mean(line, rows):
     (about,) = rows(needed(times))
     assert (about["farms"], about["plans"], about["sum"]) == ("3", "6", "450")
     assert (about["processors"], about["late farms"]) == ("2", "0")
+
+
+def test_a_failed_case_counts_with_its_limit_and_is_no_plan(line, rows):
+    failed = line("exact", 0, 0, 0, instance="a-w10-090-d060", status="failed", limit=300.0)
+    planned = line("exact", 1.0, 1.0, 100.0, limit=300.0)
+    nothing = line("exact", None, 1.0, 300.0, instance="a-w10-090-d240", limit=300.0)
+    (about,) = rows(needed([planned, failed, nothing]))
+    assert (about["farms"], about["plans"], about["failed"]) == ("1", "1", "1")
+    assert about["sum"] == "233"

@@ -43,6 +43,13 @@ def test_each_instance_shows_every_method_and_what_failed(lines, rows):
     assert second["best plan s"] == "240.00"
 
 
+def test_an_instance_that_every_method_failed_on_keeps_its_row(line, rows):
+    lost = [line(method, 0, 0, 0, status="failed") for method in ("exact", "pyvrp")]
+    (row,) = rows(by_instance(complete(lost), best_known(lost)))
+    assert (row["farm"], row["n"], row["best plan s"]) == ("a", "-", "-")
+    assert (row["exact"], row["pyvrp"]) == ("failed", "failed")
+
+
 def test_relaxations_are_measured_by_the_best_plan(lines, line, rows):
     exact = {**lines[0], "lp_bound": 90.0}
     lp = line("time-flow-lp", None, 60.0, 1.0, status="no_solution")
@@ -95,8 +102,30 @@ def test_what_was_not_proved_is_drawn_open_and_what_failed_at_its_limit(lines):
     assert any(dots.get_offsets().tolist() == [[20.0, 10.0]] for dots in open_marks)
 
 
-def test_pages_show_tables_pictures_and_failures(lines, tmp_path):
-    for record in lines:
+def curves(draw, lines):
+    ax = draw(complete(lines), best_known(lines), Figure().subplots())
+    return {curve.get_label(): curve.get_ydata() for curve in ax.get_lines()}
+
+
+def test_a_method_without_a_plan_for_every_instance_has_no_curve(lines, line):
+    lost = line("pyvrp", None, None, 10.0, status="no_solution")
+    assert set(curves(plots.gap_over_time, lines[:4])) == {"exact", "pyvrp"}
+    assert set(curves(plots.gap_over_time, [lines[0], lost, *lines[2:4]])) == {"exact"}
+    failed = line("pyvrp", 0, 0, 0, status="failed")
+    assert set(curves(plots.gap_over_time, [lines[0], failed, *lines[2:4]])) == {"exact"}
+
+
+def test_an_instance_without_a_known_bound_is_left_out_for_all(lines, line):
+    unknown = [line(name, 9.0, None, 1.0, instance="c-w10-090-d000") for name in ("exact", "pyvrp")]
+    for draw in plots.gap_over_time, plots.bound_over_time:
+        before, after = curves(draw, lines), curves(draw, [*lines, *unknown])
+        assert before.keys() == after.keys()
+        assert all((before[name] == after[name])[-1] for name in before)
+
+
+def test_pages_show_tables_pictures_and_failures(lines, line, tmp_path):
+    unknown = [line(name, 9.0, None, 1.0, instance="c-w10-090-d000") for name in ("exact", "pyvrp")]
+    for record in [*lines, *unknown]:
         appended(record, tmp_path / "routing.jsonl")
     grid = {**lines[0], "instance": "grid20-w10-090-d000"}
     appended(grid, tmp_path / "growth.jsonl")
@@ -105,8 +134,9 @@ def test_pages_show_tables_pictures_and_failures(lines, tmp_path):
     assert list(text) == ["routing", "routing-farms", "routing-cases", "growth", "cluster", "runs"]
     assert "out of luck" in text["routing"]
     assert "proved, 2.0 s" in text["routing-cases"]
-    assert "1 of 2" in text["routing"]
-    for name in "routing-profile-10-2", "routing-gaps-10-2", "routing-farms", "growth-10":
+    assert "1 of 3" in text["routing"]
+    assert text["routing"].count("are left out for all methods: 1.") == 2  # in two captions
+    for name in "routing-profile-1", "routing-gaps-1", "routing-farms", "growth-10":
         assert (tmp_path / "pages" / f"{name}.png").is_file()
 
 
