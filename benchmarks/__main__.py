@@ -13,7 +13,6 @@ from benchmarks.records import read_lines
 from benchmarks.registry import PROBLEMS, SETS, problem
 from benchmarks.runner import run
 
-CORES = cpu_count(only_physical_cores=True)
 MEASURED = Path("measured")
 """Where lines go unless told otherwise."""
 RESULTS = Path("benchmarks/results")
@@ -30,6 +29,7 @@ def main(words: list[str] | None = None) -> None:
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="python -m benchmarks", description=__doc__)
     commands = parser.add_subparsers(required=True)
+    cores = cpu_count(only_physical_cores=True)
     running = commands.add_parser("run", help="measure; a line of JSON for each case")
     add = running.add_argument
     add("problem", nargs="?", default="all", choices=(*PROBLEMS, "all"))
@@ -38,7 +38,7 @@ def _parser() -> argparse.ArgumentParser:
     add("--method", nargs="+", metavar="NAME", help="only these; or module:function")
     add("--time-limit", type=float, help="of each case [s]; each set has its own")
     add("--seed", type=int, nargs="+", default=[0])
-    add("--jobs", type=int, default=CORES, help="cases at a time here (default: one a core)")
+    add("--jobs", type=int, default=cores, help="cases at a time here (default: one a core)")
     add("--scheduler", default="", metavar="ADDRESS", help="of a dask cluster to run on instead")
     add("--resume", action="store_true", help="go on where an earlier run ended")
     add("--out", type=Path, default=MEASURED, help="folder of lines (default: %(default)s)")

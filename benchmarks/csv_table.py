@@ -14,12 +14,16 @@ def tabulate(rows: Iterable[Sequence[object]], out: Path | None = None) -> None:
     rows
         The head of the table and what follows.
     out
-        The file; after an interrupt it holds the rows until then.
+        The file, which is replaced when all rows are there. Until then, and after an interrupt,
+        they are in a file beside it whose name ends in ``.part``.
     """
+    part = out.with_name(f"{out.name}.part") if out else None
     with ExitStack() as stack:
-        file = stack.enter_context(out.open("w", newline="", encoding="utf-8")) if out else None
+        file = stack.enter_context(part.open("w", newline="", encoding="utf-8")) if part else None
         for row in rows:
             print("  ".join(map(str, row)), flush=True)
             if file is not None:
                 csv.writer(file, lineterminator="\n").writerow(row)
                 file.flush()
+    if part is not None and out is not None:
+        part.replace(out)

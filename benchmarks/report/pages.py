@@ -1,5 +1,6 @@
 """The pages of the documentation that lines are made into, one or more for each problem."""
 
+import re
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
@@ -12,18 +13,37 @@ from benchmarks.report.paper_tables import TABLES
 from benchmarks.report.routing_pages import cases_page, farms_page, growth_page, routing_page
 from windopt.io.whole_files import write_whole
 
+FIGURE = re.compile(r"^\.\. figure:: (\S+)$", re.MULTILINE)
+MADE = "made.txt"
+"""Names the files that were made, so that the next run can remove what it no longer makes."""
+
 
 def write_pages(lines: Path, out: Path) -> list[Path]:
-    """Make the pages of all lines of a folder, and return them."""
+    """Make the pages of all lines of a folder, and return them.
+
+    Pages and pictures of an earlier run that these lines do not make are removed, other files not.
+    """
     out.mkdir(parents=True, exist_ok=True)
     written, records = [], all_lines(lines)
+    made: set[str] = set()
     for name, make in PAGES.items():
         text = "\n".join(make(records, out))
         if text:
             path = out / f"{name}.rst"
             write_whole(path, text, force=True)
             written.append(path)
+            made |= {path.name, *FIGURE.findall(text)}
+    _remove_others(made, out)
     return written
+
+
+def _remove_others(made: set[str], out: Path) -> None:
+    """Remove what an earlier run made and this one did not, and keep the names of what it did."""
+    told = out / MADE
+    earlier = told.read_text(encoding="utf-8").split() if told.exists() else []
+    for name in {*earlier} - made:
+        (out / name).unlink(missing_ok=True)
+    write_whole(told, "\n".join(sorted(made)), force=True)
 
 
 def yaw_page(records: Sequence[Record], out: Path) -> Iterator[str]:

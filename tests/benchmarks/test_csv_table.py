@@ -9,17 +9,21 @@ def test_rows_are_shown_and_kept(tmp_path, capsys):
     out = tmp_path / "table.csv"
     tabulate([("farm", "s"), ("Horns Rev 1, west", 3)], out)
     assert out.read_text(encoding="utf-8") == 'farm,s\n"Horns Rev 1, west",3\n'
+    assert list(tmp_path.iterdir()) == [out]
     assert capsys.readouterr().out == "farm  s\nHorns Rev 1, west  3\n"
 
 
-def test_rows_until_an_interrupt_are_kept(tmp_path):
+def test_an_interrupt_leaves_the_earlier_table_and_keeps_its_rows_beside_it(tmp_path):
     def rows():
         yield "farm", "s"
         raise KeyboardInterrupt
 
+    out = tmp_path / "table.csv"
+    tabulate([("farm", "s"), ("Horns Rev 1", 3)], out)
     with pytest.raises(KeyboardInterrupt):
-        tabulate(rows(), tmp_path / "table.csv")
-    assert (tmp_path / "table.csv").read_text(encoding="utf-8") == "farm,s\n"
+        tabulate(rows(), out)
+    assert out.read_text(encoding="utf-8") == "farm,s\nHorns Rev 1,3\n"
+    assert (tmp_path / "table.csv.part").read_text(encoding="utf-8") == "farm,s\n"
 
 
 def test_a_table_may_be_shown_only(tmp_path, capsys):

@@ -150,6 +150,20 @@ def test_heuristics_alone_are_shown_without_bounds(line, tmp_path):
     assert ".png" not in text["routing"]
 
 
+def test_pages_that_no_line_makes_any_more_are_removed_and_no_other_file(line, tmp_path):
+    kept, pages = tmp_path / "routing.jsonl", tmp_path / "pages"
+    pages.mkdir()
+    mine = pages / "notes.rst"
+    mine.write_text("mine", encoding="utf-8")
+    appended(line("exact", 1.0, 1.0, 1.0, instance="grid20-w10-090-d000"), kept)
+    write_pages(tmp_path, pages)
+    assert (pages / "growth.rst").exists()
+    assert (pages / "growth-10.png").exists()
+    kept.unlink()
+    write_pages(tmp_path, pages)
+    assert {path.name for path in pages.iterdir()} == {"notes.rst", "made.txt"}
+
+
 def test_every_problem_has_its_page_among_the_benchmarks():
     index = INDEX.read_text(encoding="utf-8")
     for name in PROBLEMS:
