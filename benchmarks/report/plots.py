@@ -94,14 +94,15 @@ def _over_time(
     ax: "Axes",
     off: Callable[[Record, Best, Floats], Floats],
 ) -> None:
-    latest = max((record["time_limit"] for record in records), default=1.0)
-    times = np.geomspace(SHORTEST, latest, 200)
+    ends = (max(r["time_limit"], r.get("runtime", 0.0)) for r in records)  # a little late, maybe
+    times = np.geomspace(SHORTEST, max(ends, default=1.0), 200)
     lines = measurable(records, known)
     for method in methods(lines):
         mine = [record for record in lines if record["method"] == method]
         gaps = np.mean([off(record, known[instance(record)], times) for record in mine], 0)
-        if np.isfinite(gaps).any():
-            ax.plot(times, 100 * np.maximum(gaps, LEAST), label=method)
+        if (begun := np.isfinite(gaps)).any():
+            shares = 100 * np.maximum(gaps[begun], LEAST)
+            ax.plot(times[begun], shares, marker=".", markevery=[0], label=method)
     ax.set(xscale="log", yscale="log", xlabel="wall time [s]")
     _legend(ax)
 

@@ -115,6 +115,12 @@ def test_a_method_without_a_plan_for_every_instance_has_no_curve(lines, line):
     assert set(curves(plots.gap_over_time, [lines[0], failed, *lines[2:4]])) == {"exact"}
 
 
+def test_a_plan_a_little_later_than_the_limit_has_its_curve(lines, line):
+    late = line("pyvrp", 103.0, None, 10.02)
+    late["trace"] = []
+    assert set(curves(plots.gap_over_time, [lines[0], late, *lines[2:4]])) == {"exact", "pyvrp"}
+
+
 def test_an_instance_without_a_known_bound_is_left_out_for_all(lines, line):
     unknown = [line(name, 9.0, None, 1.0, instance="c-w10-090-d000") for name in ("exact", "pyvrp")]
     for draw in plots.gap_over_time, plots.bound_over_time:
