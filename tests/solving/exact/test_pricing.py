@@ -16,7 +16,7 @@ from windopt.solving.exact.pricing import Pricer
 from windopt.solving.exact.relaxation import Relaxation
 from windopt.solving.exact.search import Search, alone
 from windopt.solving.exact.subset_row_cuts import Cuts
-from windopt.solving.exact.waiting_labels import Span, rooms
+from windopt.solving.exact.waiting_labels import Span, empty_labels
 
 
 def instance(seed, n=7, k=2):
@@ -117,11 +117,11 @@ def test_cuts_that_overflow_are_taken_back(setting, monkeypatch):
 
 
 @pytest.mark.parametrize("memory", [1e8, 3e8, 4e9])
-def test_labels_take_no_more_than_their_share_of_memory(setting, memory):
+def test_room_for_labels_is_made_within_the_memory_given(setting, memory):
     _, relaxation, _ = setting
     pricer = replace(relaxation.pricer, memory=memory)
     prices = relaxation.master.cuts.prices(np.zeros(7), np.zeros(len(relaxation.master.cuts)))
-    found, waiting = rooms(pricer.capacity(prices), prices.memory.shape, Span(1.0, 0.5, 0.1))
+    found, waiting = empty_labels(pricer.capacity(prices), prices.memory.shape, Span(1.0, 0.5, 0.1))
     kept = sum(column.nbytes for column in found)
     at_work = kept + sum(column.nbytes for column in waiting)
     sides = 2 * len(pricer.networks)

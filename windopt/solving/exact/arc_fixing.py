@@ -113,8 +113,23 @@ def _through(
     return cost
 
 
-class Setting(NamedTuple):
-    """One station's network and what its labels are made from, for both sides alike."""
+class Labelling(NamedTuple):
+    """One station's network and what its labels are made from, for both sides alike.
+
+    Attributes
+    ----------
+    network
+        Its times are in thousandths of the longest t_max.
+    prices, memory
+        As of :class:`~windopt.solving.exact.labels.Prices` and
+        :class:`~windopt.solving.exact.labels.Memory`.
+    width
+        Width of a time bucket, in the network's unit.
+    capacity
+        Labels of one side to hold at most.
+    stop
+        Shape ``(1,)``; non-zero ends the making.
+    """
 
     network: Network
     prices: Prices
@@ -125,7 +140,7 @@ class Setting(NamedTuple):
 
 
 def _both(
-    given: Setting, horizon: float, bounds: tuple[Bound, Bound]
+    given: Labelling, horizon: float, bounds: tuple[Bound, Bound]
 ) -> tuple[Labels, Labels] | None:
     """Return the forward and backward labels up to ``horizon``; None where they are too many."""
     network, found = given.network, []
@@ -166,7 +181,7 @@ def useful_arcs(
     The tables of completion costs and the least cost of a flight over each leg, shape
     ``(n, n)``; None where there are more labels than ``capacity``.
     """
-    given = Setting(network, prices, memory, width, capacity, clock.stop)
+    given = Labelling(network, prices, memory, width, capacity, clock.stop)
     t_max, step = network.t_max, network.t_max / STEPS
     halves = _both(given, network.half, (UNBOUNDED, UNBOUNDED))
     if halves is None:

@@ -51,7 +51,7 @@ def enumerate_flights(
         Whether to keep a flight over each set for each station, not the fastest only.
     """
     n, prices = len(networks[0].out), fixing.prices
-    sets, half_capacity = _room(n, prices.memory.shape[1], effort, memory)
+    sets, half_capacity = _empty_sets(n, prices.memory.shape[1], effort, memory)
     slots, count = empty_slots(1 << 16), 0
     trees = []
     for d, (network, rest) in enumerate(zip(networks, fixing.completions, strict=True)):
@@ -73,7 +73,7 @@ def enumerate_flights(
     return _pool(sets, count, trees)
 
 
-def _room(n: int, cuts: int, effort: int, memory: float) -> tuple[Sets, int]:
+def _empty_sets(n: int, cuts: int, effort: int, memory: float) -> tuple[Sets, int]:
     """Make room for flights, and return the half flights of one side there may be."""
     words = (n + 63) // 64
     halves = min(effort, int(HALVES_SHARE * memory / (2 * (48 + 8 * (words + cuts)))))

@@ -73,7 +73,7 @@ def _remembered(sets: Words, row: int, j: int, memory: Memory) -> np.uint64:
 
 
 @compiled
-def _room(capacity: int, n: int, words: int) -> Halves:
+def _empty_halves(capacity: int, n: int, words: int) -> Halves:
     """Make room for half flights, and for one to be looked at."""
     return Halves(
         np.empty(capacity + 1),
@@ -86,7 +86,7 @@ def _room(capacity: int, n: int, words: int) -> Halves:
 
 
 @compiled
-def _cut(found: Halves, count: int) -> Halves:
+def _in_use(found: Halves, count: int) -> Halves:
     """Return copies of the rows in use."""
     return Halves(
         found.T[:count].copy(),
@@ -218,7 +218,7 @@ def half_flights(
     The :class:`Halves`, and whether they are complete.
     """
     n, words = prices.memory.shape
-    found, S = _room(capacity, n, words), np.empty(words, np.uint64)
+    found, S = _empty_halves(capacity, n, words), np.empty(words, np.uint64)
     least = cheapest(ends)
     slots, count, complete = _start(found, empty_slots(1 << 16), side, prices, interest, rest)
     current = 0
@@ -228,4 +228,4 @@ def half_flights(
         )
         complete = complete and stop[0] == 0
         current += 1
-    return _cut(found, count), complete
+    return _in_use(found, count), complete

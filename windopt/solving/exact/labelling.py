@@ -23,7 +23,7 @@ from windopt.solving.exact.labels import (
     price_of,
 )
 from windopt.solving.exact.network import SLACK, Floats, Side
-from windopt.solving.exact.waiting_labels import Span, Waiting, cut, enlist, rooms
+from windopt.solving.exact.waiting_labels import Span, Waiting, empty_labels, enlist, in_use
 
 
 @compiled
@@ -175,7 +175,7 @@ def labels(
     stop
         Set to non-zero by another thread to end the search.
     """
-    found, waiting = rooms(capacity, prices.memory.shape, span)
+    found, waiting = empty_labels(capacity, prices.memory.shape, span)
     order = np.empty(len(found.T), np.int32)
     count, layer = 0, -1
     _start(waiting, side, prices, memory, span)
@@ -183,14 +183,14 @@ def labels(
         while waiting.number[b] > 0:
             layer, first = layer + 1, count
             if layer == len(found.opens):
-                return cut(found, count, layer), False
+                return in_use(found, count, layer), False
             found.opens[layer] = b * span.width
             count = _settle_all(found, waiting, b, layer, count, keep, prices.penalty, exact, order)
             if count > len(found.T):
-                return cut(found, len(found.T), layer), False
+                return in_use(found, len(found.T), layer), False
             for a in range(first, count):
                 if stop[0] != 0 or not _extend(
                     found, waiting, a, layer, side, prices, memory, span, exact, bound
                 ):
-                    return cut(found, count, layer), False
-    return cut(found, count, layer + 1), True
+                    return in_use(found, count, layer), False
+    return in_use(found, count, layer + 1), True

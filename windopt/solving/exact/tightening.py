@@ -186,7 +186,7 @@ def tighten(
         if len(pool) <= SMALL or _whole(x) or (stalls and larger):
             break
         larger, before = larger or stalls, value
-        if not _cut_off(selection, x, larger, search.clock):
+        if not _add_violated(selection, x, larger, search.clock):
             break
     rows = selection.rows.kept(duals.penalty > 1e-7)
     return Tightened(pool, reduced, rows, value, selection, x)
@@ -208,7 +208,7 @@ def _whole(x: Floats) -> bool:
     return bool((x[x > 1e-6] > 1 - 1e-6).all())
 
 
-def _cut_off(selection: Selection, x: Floats, larger: bool, clock: Clock) -> bool:
+def _add_violated(selection: Selection, x: Floats, larger: bool, clock: Clock) -> bool:
     """Add rows that the plan ``x`` violates, and tell whether there are any."""
     flown = x > 1e-6
     found = _violated(selection.members[flown], x[flown], larger, clock)

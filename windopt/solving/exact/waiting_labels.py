@@ -59,7 +59,7 @@ class Waiting(NamedTuple):
 
 
 @compiled
-def rooms(capacity: int, shape: tuple[int, int], span: Span) -> tuple[Labels, Waiting]:
+def empty_labels(capacity: int, shape: tuple[int, int], span: Span) -> tuple[Labels, Waiting]:
     """Make room for ``capacity`` labels, and for one of each turbine at least.
 
     Parameters
@@ -109,7 +109,7 @@ def enlist(waiting: Waiting, new: int, b: int, j: int) -> None:
 
 
 @compiled
-def cut(found: Labels, count: int, layers: int) -> Labels:
+def in_use(found: Labels, count: int, layers: int) -> Labels:
     """Return copies of the rows in use."""
     return Labels(
         found.T[:count].copy(),
