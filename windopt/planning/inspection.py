@@ -102,8 +102,8 @@ def plan_inspection(
     Raises
     ------
     InvalidInput
-        If the method or the rule is unknown, a number is negative, a name is not known, or the
-        method cannot do what is asked for.
+        If the farm, the fleet or the wind is not one, the method or the rule is unknown, a number
+        is negative, a name is not known, or the method cannot do what is asked for.
     FailedCheck
         If the independent checker finds a fault in the plan.
     """

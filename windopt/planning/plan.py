@@ -94,8 +94,11 @@ def plan(
     Raises
     ------
     InvalidInput
-        If ``time`` lies outside the series, the series is too short or too full of gaps for the
-        forecaster, or a name is unknown.
+        If the farm, the fleet or the series is not one, ``time`` lies outside the series, the
+        series is too short or too full of gaps for the forecaster, a name is unknown, or an option
+        cannot be used.
+    FailedCheck
+        If the independent checker finds a fault in the set-points or the flights.
     """
     require_kind("farm", farm, Farm)
     require_kind("fleet", fleet, Fleet)

@@ -71,6 +71,18 @@ def plan_schedule(
         nacelles or face the wind, whichever delivers more.
     seed
         Of whatever is drawn at random.
+
+    Returns
+    -------
+    One result for each step, in order; its bound is the power of the farm without wakes.
+
+    Raises
+    ------
+    InvalidInput
+        If the farm or the forecast is not one, an option cannot be used, or a turbine names an
+        unknown power coefficient.
+    FailedCheck
+        If the set-points of a step do not stand up to the independent checker.
     """
     require_kind("farm", farm, Farm)
     require_kind("forecast", forecast, WindForecast)

@@ -104,7 +104,8 @@ def plan_yaw(
     Raises
     ------
     InvalidInput
-        If an option cannot be used, or a turbine names an unknown power coefficient.
+        If the farm or the wind is not one, an option cannot be used, or a turbine names an unknown
+        power coefficient.
     FailedCheck
         If the set-points do not stand up to the independent checker.
     """

@@ -94,6 +94,12 @@ def plan_yaw_table(
     -------
     Result
         Its objective and bound are means over the cells [W].
+
+    Raises
+    ------
+    InvalidInput
+        If the farm is not one, speeds or directions do not increase within their range, there are
+        too many cells, an option cannot be used, or a turbine names an unknown power coefficient.
     """
     require_kind("farm", farm, Farm)
     begin = perf_counter()
