@@ -1,32 +1,15 @@
 """Certificates at the command line: proved, written, verified, and refused when touched."""
 
 import json
-import sys
 
 import pytest
 
 from windopt.checking import tails
-from windopt.cli import main
-
-FARM = "name,x,y\nA1,0,0\nA2,600,0\nA3,1200,0\nB1,0,700\nB2,600,700\n"
-STATIONS = "id,x,y\nS1,500,300\n"
 
 
-@pytest.fixture
-def windopt(tmp_path, monkeypatch, capsys):
-    """Run a command in a folder with a farm; return its exit code, output and complaints."""
-    (tmp_path / "farm.csv").write_text(FARM, encoding="utf-8")
-    (tmp_path / "stations.csv").write_text(STATIONS, encoding="utf-8")
-    monkeypatch.chdir(tmp_path)
-
-    def run(*words):
-        monkeypatch.setattr(sys, "argv", ["windopt", *map(str, words)])
-        with pytest.raises(SystemExit) as stop:
-            main()
-        told = capsys.readouterr()
-        return stop.value.code or 0, told.out, told.err
-
-    return run
+@pytest.fixture(autouse=True)
+def beside_a_farm(folder):
+    """Run every command in a folder with a farm and a station."""
 
 
 def inspect(windopt, *options):

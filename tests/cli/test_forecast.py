@@ -1,30 +1,20 @@
 """``windopt forecast`` as a user meets it."""
 
 import json
-import sys
 
 import numpy as np
 import pytest
 
-from windopt.cli import main
 from windopt.io.built_in import DATA
 
 MONTH = DATA / "wrf-2009-01.csv.gz"
 
 
 @pytest.fixture
-def windopt(monkeypatch, capsys, tmp_path):
+def windopt(windopt, tmp_path, monkeypatch):
     """Run a command and return its exit code, output and complaints."""
     monkeypatch.chdir(tmp_path)
-
-    def run(*words):
-        monkeypatch.setattr(sys, "argv", ["windopt", *map(str, words)])
-        with pytest.raises(SystemExit) as stop:
-            main()
-        told = capsys.readouterr()
-        return stop.value.code or 0, told.out, told.err
-
-    return run
+    return windopt
 
 
 def test_the_shipped_model_is_scored_beside_its_baselines(windopt):

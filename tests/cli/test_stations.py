@@ -1,11 +1,9 @@
 """``windopt stations``: what it prints, writes and exits with."""
 
 import json
-import sys
 
 import pytest
 
-from windopt.cli import main
 from windopt.io.stations import read_stations
 
 FARM = "name,x,y\nA1,0,0\nA2,600,0\nA3,1200,0\nB1,0,700\nB2,600,700\nC1,12000,0\n"
@@ -13,19 +11,11 @@ WIND = "--wind-speed", "10", "--wind-direction", "90"
 
 
 @pytest.fixture
-def windopt(monkeypatch, capsys, tmp_path):
+def windopt(windopt, tmp_path, monkeypatch):
     """Run a command beside farm.csv and return its exit code, output and complaints."""
     (tmp_path / "farm.csv").write_text(FARM, encoding="utf-8")
     monkeypatch.chdir(tmp_path)
-
-    def run(*words):
-        monkeypatch.setattr(sys, "argv", ["windopt", *map(str, words)])
-        with pytest.raises(SystemExit) as stop:
-            main()
-        told = capsys.readouterr()
-        return stop.value.code or 0, told.out, told.err
-
-    return run
+    return windopt
 
 
 def test_stations_are_counted_proven_and_compared_with_k_means(windopt):
