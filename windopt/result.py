@@ -26,7 +26,7 @@ class Status(StrEnum):
 
 
 _SENTENCES = {
-    Status.OPTIMAL: "Proved: no solution is better by more than the gap asked for.",
+    Status.OPTIMAL: "Proved best, or within the gap where one was asked for.",
     Status.LOCALLY_OPTIMAL: "First-order conditions hold; a better solution may lie elsewhere.",
     Status.FEASIBLE: "A solution that keeps every constraint, without a proof that it is best.",
     Status.INFEASIBLE: "Proved: no solution keeps every constraint.",

@@ -42,7 +42,8 @@ def _by_default(farm: Farm, uav: Uav, *, dwell: float, seed: int) -> Fleet:
     if placed.solution is None:
         raise InvalidInput("--stations", "to be given, as none could be placed", placed.reason)
     fewest = counted(len(placed.solution), "station")
-    note((f"{fewest} placed, the fewest that reach every turbine; name your own with --stations.",))
+    reach = "the fewest that reach every turbine in the winds they are designed for"
+    note((f"{fewest} placed, {reach}; name your own with --stations.",))
     return placed.solution
 
 

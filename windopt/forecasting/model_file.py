@@ -92,7 +92,7 @@ def loads(content: bytes, name: str = "model file") -> Model:
         OSError, ValueError, KeyError, TypeError, EOFError, IndexError, AttributeError,
         OverflowError, NotImplementedError, MemoryError, zipfile.BadZipFile,
     ) as broken:  # fmt: skip
-        raise InvalidInput(name, "a windopt model that is whole", f"{broken}") from broken
+        raise InvalidInput(name, "to be a whole windopt model", f"damage: {broken}") from broken
 
 
 def save(model: Model, path: Path) -> None:

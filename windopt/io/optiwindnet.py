@@ -61,8 +61,8 @@ def optiwindnet_farm(name: str, also_known: Iterable[str] = ()) -> Farm:
     key = name.strip().casefold()
     if key not in known or known[key] not in names:
         close = [known[k] for k in get_close_matches(key, known, n=5)]
-        hint = f"one of {', '.join(close)}" if close else "a file, or a farm of OptiWindNet"
-        raise InvalidInput("farm", f"to be {hint}", repr(name))
+        alike = f" (alike: {', '.join(close)})" if close else ""
+        raise InvalidInput("farm", f"to be a file, or a farm of OptiWindNet{alike}", repr(name))
     return _farm(names[known[key]])
 
 
