@@ -12,6 +12,7 @@ from benchmarks.case import Case
 from benchmarks.records import read_lines
 from benchmarks.registry import PROBLEMS, SETS, problem
 from benchmarks.runner import run
+from windopt.errors import MissingExtra
 
 MEASURED = Path("measured")
 """Where lines go unless told otherwise."""
@@ -23,7 +24,10 @@ PAGES = Path("docs/benchmarks/generated")
 def main(words: list[str] | None = None) -> None:
     """Run a benchmark, or report what was measured."""
     chosen = _parser().parse_args(words)
-    chosen.command(chosen)
+    try:
+        chosen.command(chosen)
+    except MissingExtra as lacking:
+        sys.exit(str(lacking))
 
 
 def _parser() -> argparse.ArgumentParser:

@@ -3,6 +3,7 @@
 from importlib import import_module
 
 from benchmarks.case import Problem
+from windopt.errors import MissingExtra
 
 PROBLEMS = {
     "routing": "benchmarks.routing",
@@ -17,6 +18,15 @@ SETS = "small", "medium", "full", "growth", "guard"
 
 
 def problem(name: str) -> Problem:
-    """Return a problem by name, imported when it is asked for."""
-    found: Problem = import_module(PROBLEMS[name]).PROBLEM
+    """Return a problem by name, imported when it is asked for.
+
+    Raises
+    ------
+    MissingExtra
+        If a package that it measures is not installed.
+    """
+    try:
+        found: Problem = import_module(PROBLEMS[name]).PROBLEM
+    except ModuleNotFoundError as lacking:
+        raise MissingExtra(f"The benchmark {name!r} ({lacking.name})", "bench") from lacking
     return found
