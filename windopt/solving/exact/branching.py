@@ -20,7 +20,7 @@ from windopt.solving.exact.pool import Pool
 from windopt.solving.exact.rank_one_rows import Rows
 from windopt.solving.exact.relaxation import MARGIN
 from windopt.solving.exact.search import CLOSED, Search
-from windopt.solving.exact.staged_mip import LITTLE_MORE, SIZES, minimise, staged_mip
+from windopt.solving.exact.staged_mip import LITTLE_MORE, SIZES, staged_mip
 from windopt.solving.exact.tightening import Tightened, tighten
 
 MOST = int(LITTLE_MORE * SIZES[-1])
@@ -31,6 +31,8 @@ LEAST_GAIN = 1e-3
 """What a branch counts as raising the bound at least."""
 FRACTIONAL = 0.05
 """Distance from a whole number from which a number of flights is branched on."""
+UNDECIDED = 1e-6
+"""Distance from 0 and 1 from which a pair is neither apart nor together."""
 
 
 class Branch(NamedTuple):
@@ -71,8 +73,9 @@ def branch(root: Tightened, counts: Floats, target: float, search: Search) -> No
             continue
         pool, reduced = node.pool.kept(keep), node.reduced[keep]
         children = _children(node, counts, wanted, search)
-        if not children:
-            bound = max(bound, minimise(pool, node.rows, counts, search))
+        if not children:  # the solution is a plan, which a few flights without reduced cost make
+            listed = staged_mip(node, counts, target, search, prove, to_the_end=True)
+            bound = max(bound, listed)
             proved = min(proved, bound, wanted)
         for child, limits in _tightened(children, pool, reduced, node.rows, wanted, search):
             left = max(child.value, bound)
@@ -129,7 +132,7 @@ def _on_pairs(together: Floats, counts: Floats) -> list[list[Branch]]:
     candidates: list[list[Branch]] = []
     for pair in np.argsort(undecided, axis=None, kind="stable")[:PAIRS]:
         i, j = np.unravel_index(pair, undecided.shape)
-        if undecided[i, j] <= 0.5 - FRACTIONAL:
+        if undecided[i, j] <= 0.5 - UNDECIDED:
             both = Branch(partial(as_one, i, j), counts), Branch(partial(apart, i, j), counts)
             candidates.append([*both])
     return candidates

@@ -4,7 +4,8 @@ A plan cheaper than bound + delta flies only flights of reduced cost up to delta
 over those either is such a plan or proves bound + delta.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from itertools import count
 
 import highspy
 import numpy as np
@@ -21,6 +22,8 @@ from windopt.solving.exact.tightening import Tightened, flight_rows
 SIZES = (2500, 5000)
 """Flights of each stage; the last takes what is little more, and is left out if there is more."""
 LITTLE_MORE = 1.3
+LARGER = 2
+"""What each stage is of the one before it, where they go on to the end."""
 
 
 def staged_mip(
@@ -29,6 +32,7 @@ def staged_mip(
     target: float,
     search: Search,
     prove: Callable[[float], None],
+    to_the_end: bool = False,
 ) -> float:
     """Look for a plan cheaper than ``target`` among the flights that ``tighten`` left.
 
@@ -36,6 +40,8 @@ def staged_mip(
     ----------
     prove
         Told of each bound on such plans.
+    to_the_end
+        Whether to go on however many flights there are.
 
     Returns
     -------
@@ -44,8 +50,7 @@ def staged_mip(
     order = np.argsort(tight.reduced, kind="stable")
     pool, reduced = tight.pool.kept(order), tight.reduced[order]
     bound = tight.value
-    few = len(pool) <= LITTLE_MORE * SIZES[-1]
-    for size in SIZES if few else SIZES[:1]:
+    for size in _sizes(len(pool), to_the_end):
         wanted = min(target, search.ceiling)
         matter = int(np.searchsorted(reduced, wanted - tight.value + MARGIN, side="right"))
         whole = matter <= LITTLE_MORE * size
@@ -57,6 +62,16 @@ def staged_mip(
         if whole or bound >= search.ceiling - CLOSED:
             break
     return bound
+
+
+def _sizes(flights: int, to_the_end: bool) -> Iterator[int]:
+    """Yield the size of each stage; ever larger ones where it goes to the end."""
+    if to_the_end:
+        yield from (SIZES[0] * LARGER**stage for stage in count())
+    elif flights <= LITTLE_MORE * SIZES[-1]:
+        yield from SIZES
+    else:
+        yield SIZES[0]
 
 
 def minimise(pool: Pool, rows: Rows, counts: Floats, search: Search) -> float:
