@@ -18,7 +18,7 @@ from windopt.domain.routing import Route, RoutingInstance
 from windopt.errors import InvalidInput
 from windopt.result import Effort, Result, Status
 from windopt.solving.exact.clock import Clock, OutOfTime
-from windopt.solving.exact.closing import close
+from windopt.solving.exact.closing import Closing
 from windopt.solving.exact.local_search import improve
 from windopt.solving.exact.pricing import LabelsOverflow
 from windopt.solving.exact.relaxation import Relaxation
@@ -29,8 +29,8 @@ EFFORT, MORE = 300_000, 1.5
 """Half flights that the first attempt to list all flights may hold, and the growth of that."""
 NARROWER = 0.75
 """What cuts must make of a gap whose flights were too many, before they are listed again."""
-FARTHER, SMALLER = 1.5, 0.5
-"""By what a part of the gap grows whose flights could be listed, and shrinks if they could not."""
+ROUNDS = 2
+"""Rounds of cuts after which flights are listed again at the latest."""
 THOROUGH = 2
 """Times the first local search to search again, and more each time flights are too many."""
 SOURCE = "column generation"
@@ -120,29 +120,22 @@ def _prove(search: Search, memory: float, seed: int) -> None:
         pass
     rounded = relaxation.rounded()
     improve(search, seed + 1, start=rounded)
-    effort, delta = float(EFFORT), inf
+    closing, effort = Closing(relaxation), float(EFFORT)
     for attempt in count(1):
-        fixing = relaxation.fix_arcs()
-        gap = relaxation.gap
-        listed = fixing is not None and close(relaxation, fixing, delta, int(effort), search)
-        if search.closed or (listed and delta >= gap):
+        if closing.close(int(effort)):
             return
         improve(search, seed + 1 + attempt, THOROUGH * attempt, rounded)
-        if _narrow(relaxation, NARROWER * gap):
-            delta = inf
-        else:
-            delta = min(delta, gap) * (FARTHER if listed else SMALLER)
+        _narrow(relaxation, NARROWER * relaxation.gap)
         rounded = relaxation.rounded()
         effort *= MORE
 
 
-def _narrow(relaxation: Relaxation, gap: float) -> bool:
-    """Cut until the relaxation leaves no more than ``gap``, and tell whether cuts did it."""
-    while relaxation.gap > gap:
-        if not relaxation.cut():
-            return False
+def _narrow(relaxation: Relaxation, gap: float) -> None:
+    """Cut until the relaxation leaves no more than ``gap``, cuts do not help, or enough is cut."""
+    for _ in range(ROUNDS):
+        if relaxation.gap <= gap or not relaxation.cut():
+            return
         relaxation.round_flights()
-    return True
 
 
 def _result(search: Search, stopped: Status, lacking: str) -> Result[tuple[Route, ...]]:

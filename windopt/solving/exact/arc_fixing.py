@@ -1,36 +1,25 @@
-"""Arc fixing: legs that no flight of interest uses, and what the rest of a flight costs at least.
+"""Arc fixing: legs that no flight of interest uses.
 
-Half labels give a table of the least cost of reaching each turbine by a given time; it lets
-labels go on beyond half of t_max where they may still matter, and the tables of these hold for
-every time. A leg is of no use when the best flight over it costs more than the gap [1].
+Half labels tell which labels may still matter beyond half of t_max. With those the labels of both
+sides meet on every leg, which is of no use when the best flight over it costs more than the
+gap [1].
 
 * [1] Irnich, Desaulniers, Desrosiers & Hadjar (2010), *INFORMS Journal on Computing* 22, 297-313.
 """
 
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from windopt.solving.exact.bits import NONE
-from windopt.solving.exact.clock import Clock
+from windopt.solving.exact.both_sides import BothSides
 from windopt.solving.exact.compiled import compiled
+from windopt.solving.exact.completions import bounds, completion_bounds, tables, tightest
 from windopt.solving.exact.joins import cheapest, partner
-from windopt.solving.exact.labelling import labels
-from windopt.solving.exact.labels import (
-    EPS,
-    UNBOUNDED,
-    Bound,
-    Labels,
-    Memory,
-    Prices,
-    carried,
-)
+from windopt.solving.exact.labels import EPS, Labels, Memory, carried
 from windopt.solving.exact.network import SLACK, Floats, Network, Side
-from windopt.solving.exact.waiting_labels import Span
-
-STEPS = 540
-"""Steps of time in a table."""
 
 
 class Completions(NamedTuple):
@@ -51,28 +40,6 @@ class Completions(NamedTuple):
     step: float
     ahead: Labels
     behind: Labels
-
-
-@compiled
-def _reached(found: Labels, side: Side, t_max: float, step: float) -> Floats:
-    """Return the least cost of arriving at each turbine by each time, its own reward left out."""
-    n, steps = len(side.first), int(t_max / step) + 2
-    table = np.full((n, steps), np.inf)
-    for j in range(n):
-        if side.first[j] <= t_max:
-            table[j, int(side.first[j] / step)] = side.first[j]
-    for a in range(len(found.T)):
-        i = found.node[a]
-        for e in range(side.degree[i]):
-            j = side.heads[i, e]
-            t = found.T[a] + side.legs[i, j]
-            if t <= t_max + SLACK:
-                q = int(t / step)
-                table[j, q] = min(table[j, q], found.C[a] + side.legs[i, j])
-    for j in range(n):
-        for q in range(1, steps):
-            table[j, q] = min(table[j, q], table[j, q - 1])
-    return table
 
 
 @compiled
@@ -113,87 +80,40 @@ def _through(
     return cost
 
 
-class Labelling(NamedTuple):
-    """One station's network and what its labels are made from, for both sides alike.
-
-    Attributes
-    ----------
-    network
-        Its times are in thousandths of the longest t_max.
-    prices, memory
-        As of :class:`~windopt.solving.exact.labels.Prices` and
-        :class:`~windopt.solving.exact.labels.Memory`.
-    width
-        Width of a time bucket, in the network's unit.
-    capacity
-        Labels of one side to hold at most.
-    stop
-        Shape ``(1,)``; non-zero ends the making.
-    """
-
-    network: Network
-    prices: Prices
-    memory: Memory
-    width: float
-    capacity: int
-    stop: NDArray[np.uint8]
-
-
-def _both(
-    given: Labelling, horizon: float, bounds: tuple[Bound, Bound]
-) -> tuple[Labels, Labels] | None:
-    """Return the forward and backward labels up to ``horizon``; None where they are too many."""
-    network, found = given.network, []
-    span = Span(network.t_max, horizon, given.width)
-    for side, bound in zip((network.forward, network.backward), bounds, strict=True):
-        part, complete = labels(
-            side, given.prices, given.memory, span, True, given.capacity, bound, given.capacity,
-            given.stop,
-        )  # fmt: skip
-        if not complete:
-            return None
-        found.append(part)
-    return found[0], found[1]
-
-
-def _tables(network: Network, ahead: Labels, behind: Labels) -> tuple[Floats, Floats]:
-    """Return the completion costs of forward and of backward labels."""
-    t_max, step = network.t_max, network.t_max / STEPS
-    return (
-        _reached(behind, network.backward, t_max, step),
-        _reached(ahead, network.forward, t_max, step),
-    )
-
-
 def useful_arcs(
-    network: Network,
-    prices: Prices,
-    memory: Memory,
-    width: float,
-    limit: float,
-    capacity: int,
-    clock: Clock,
-) -> tuple[Completions, Floats] | None:
-    """Find the legs of one station on which a flight of cost ``limit`` or less may fly.
+    given: BothSides, loose: BothSides, limits: Floats
+) -> tuple[list[Completions], list[Floats]] | None:
+    """Find the legs on which a flight may fly that costs no more than ``limits`` of its station.
+
+    Parameters
+    ----------
+    given, loose
+        With all cuts; and without any, for a first bound.
 
     Returns
     -------
-    The tables of completion costs and the least cost of a flight over each leg, shape
-    ``(n, n)``; None where there are more labels than ``capacity``.
+    For each station what completes its labels, and the least cost of a flight over each leg,
+    shape ``(n, n)``; None where memory does not suffice.
     """
-    given = Labelling(network, prices, memory, width, capacity, clock.stop)
-    t_max, step = network.t_max, network.t_max / STEPS
-    halves = _both(given, network.half, (UNBOUNDED, UNBOUNDED))
-    if halves is None:
+    first = completion_bounds(loose, limits)
+    halves, complete = given.labels(first or given.unbounded)
+    if not complete:
         return None
-    tables = _tables(network, *halves)
-    forward, backward = (Bound(table, step, network.half, limit) for table in tables)
-    wholes = _both(given, t_max, (forward, backward))
-    if wholes is None:
+    second = bounds(given, halves, limits, whole=False)
+    if first is not None:
+        second = [tightest(*pair) for pair in zip(first, second, strict=True)]
+    wholes, complete = given.labels(second, whole=True)
+    if not complete:
         return None
-    rest = Completions(*_tables(network, *wholes), step, *wholes)
-    through = _through(
-        *wholes, network.forward, memory, prices.penalty, t_max, rest.forward, step, prices.pi,
-        limit, clock.stop,
+    pairs = zip(given.networks, wholes[::2], wholes[1::2], strict=True)
+    rest = [Completions(*tables(*each), *each[1:]) for each in pairs]
+    return rest, given.clock.map(partial(_least_through, given), given.networks, rest, limits)
+
+
+def _least_through(given: BothSides, network: Network, rest: Completions, limit: float) -> Floats:
+    """Return the least cost of a flight of one station over each leg, shape ``(n, n)``."""
+    prices = given.prices
+    return _through(
+        rest.ahead, rest.behind, network.forward, given.memory, prices.penalty, network.t_max,
+        rest.forward, rest.step, prices.pi, limit, given.clock.stop,
     )  # fmt: skip
-    return rest, through

@@ -94,7 +94,7 @@ def _tightened(
         left = tighten(
             pool.kept(part), reduced[part], rows, counts, target, search, prove=lambda _: None
         )
-        if left is not None:
+        if len(left.pool):
             yield left, counts
 
 

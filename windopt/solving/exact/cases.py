@@ -130,7 +130,7 @@ def _rounds(
     inside[np.argsort(left.reduced, kind="stable")[:FIRST]] = True
     pool, counts = left.pool, left.counts
     selection = Selection(
-        search.n, counts, Rows.subsets(left.triples), np.minimum(search.prize, target)
+        search.n, counts, Rows.subsets(left.triples), np.minimum(search.prize, target), target
     )
     selection.add(pool.kept(inside))
     rounds: list[Round] = []

@@ -2,74 +2,138 @@
 
 A plan cheaper than value + delta flies only flights of reduced cost up to delta. Where the flights
 of the whole gap are too many, those of a smaller delta either hold a better plan, and the gap
-shrinks, or prove value + delta.
+shrinks, or prove value + delta; and the rows that tighten the program over these are those that
+a larger delta begins with.
 """
+
+from dataclasses import dataclass
 
 from windopt.solving.exact.branching import branch
 from windopt.solving.exact.enumeration import enumerate_flights
+from windopt.solving.exact.master import Duals
+from windopt.solving.exact.network import Floats
 from windopt.solving.exact.pool import Pool, reduced_costs
 from windopt.solving.exact.rank_one_rows import Rows
 from windopt.solving.exact.relaxation import MARGIN, Fixing, Relaxation
 from windopt.solving.exact.search import ProofError, Search
-from windopt.solving.exact.tightening import tighten
+from windopt.solving.exact.tightening import Tightened, tighten
+
+LEAST, LARGER = 0.1, 1.5
+"""Part of the gap to begin with where the whole is too much, and by what it grows."""
 
 
-def close(
-    relaxation: Relaxation, fixing: Fixing, delta: float, effort: int, search: Search
-) -> bool:
-    """Find the best plan of flights of a reduced cost up to ``delta``, or prove there is none.
+@dataclass
+class Closing:
+    """What is left between the relaxation of a search and its best plan.
 
-    Parameters
+    Attributes
     ----------
-    effort
-        Half flights to hold at most, for one side of one station; memory may allow fewer.
-
-    Returns
-    -------
-    Whether the flights were not too many.
+    fixing
+        The last that there was memory for; it holds when the relaxation has gone on.
+    tight
+        The last list of flights, tightened.
     """
-    if search.closed:
-        return True
-    delta = min(delta, search.ceiling - fixing.value)
-    networks = fixing.useful(relaxation.pricer.networks, delta)
-    pool = enumerate_flights(
-        networks, fixing, delta, effort, relaxation.memory, search.clock, apart=search.limited
-    )
-    if pool is None:
-        search.note("too many flights within %.3f of %.3f", delta, fixing.value)
+
+    relaxation: Relaxation
+    fixing: Fixing | None = None
+    tight: Tightened | None = None
+
+    @property
+    def search(self) -> Search:
+        """The search to close."""
+        return self.relaxation.search
+
+    def close(self, effort: int) -> bool:
+        """Find the best plan, and that there is no better one, unless flights are too many.
+
+        Parameters
+        ----------
+        effort
+            Half flights to hold at most, for one side of one station; memory may allow fewer.
+
+        Returns
+        -------
+        Whether the gap is closed.
+        """
+        if self.search.closed:
+            return True
+        fixing = None if self.relaxation.crowded else self.relaxation.fix_arcs()
+        if fixing is not None:
+            self.fixing = fixing
+            if self._list(fixing, self.search.ceiling - fixing.value, effort):
+                return True
+        return len(self.relaxation.master.cuts) > 0 and self._close_parts(effort)
+
+    def _close_parts(self, effort: int) -> bool:
+        """Close ever larger parts of the gap, and tell whether that came to the whole."""
+        search, fixing = self.search, self.fixing
+        if fixing is None:
+            return False
+        delta = search.bound - fixing.value + LEAST * (search.ceiling - search.bound)
+        while self._list(fixing, delta, effort):
+            if search.closed or delta >= search.ceiling - fixing.value:
+                return True
+            delta *= LARGER
         return False
-    _choose(pool, relaxation, fixing, delta, search)
-    return True
 
+    def _list(self, fixing: Fixing, delta: float, effort: int) -> bool:
+        """Look for a plan of flights of a reduced cost up to ``delta``, unless they are too many.
 
-def _choose(
-    pool: Pool, relaxation: Relaxation, fixing: Fixing, delta: float, search: Search
-) -> None:
-    """Look for a plan in ``pool``, all flights of a reduced cost up to ``delta``."""
-    value = fixing.value
-    search.note("%d flights within %.3f of %.3f", len(pool), delta, value)
-    _require_plan(pool, relaxation, delta, search)
-    target = min(value + delta, search.ceiling)
-    rows = Rows.subsets(relaxation.master.cuts.triples)
-    slices = pool.slices(search.n, search.clock)
-    reduced = reduced_costs(pool, slices, relaxation.duals, rows, search.clock)
-    keep = reduced <= delta + MARGIN
-    pool, reduced = pool.kept(keep), reduced[keep]
-    tight = tighten(pool, reduced, rows, relaxation.counts, target, search, search.prove)
-    if tight is not None:
-        search.note("%d flights left above %.3f", len(tight.pool), tight.value)
-        branch(tight, relaxation.counts, target, search)
+        Returns
+        -------
+        Whether they were not.
+        """
+        search, relaxation = self.search, self.relaxation
+        delta = min(delta, search.ceiling - fixing.value)
+        networks = fixing.useful(relaxation.pricer.networks, delta)
+        pool = enumerate_flights(
+            networks, fixing, delta, effort, relaxation.memory, search.clock, apart=search.limited
+        )
+        if pool is None:
+            search.note("too many flights within %.3f of %.3f", delta, fixing.value)
+            return False
+        search.note("%d flights within %.3f of %.3f", len(pool), delta, fixing.value)
+        self._require_plan(pool, fixing, delta)
+        self._choose(pool, fixing, delta)
+        return True
 
+    def _choose(self, pool: Pool, fixing: Fixing, delta: float) -> None:
+        """Look for a plan in ``pool``, all flights of a reduced cost up to ``delta``."""
+        search, counts = self.search, self.relaxation.counts
+        target = min(fixing.value + delta, search.ceiling)
+        pool, reduced, rows = self._priced(pool, fixing, delta)
+        self.tight = tighten(pool, reduced, rows, counts, target, search, search.prove)
+        if len(self.tight.pool):
+            search.note("%d flights left above %.3f", len(self.tight.pool), self.tight.value)
+            branch(self.tight, counts, target, search)
 
-def _require_plan(pool: Pool, relaxation: Relaxation, delta: float, search: Search) -> None:
-    """Check that those flights of the best plan are in the pool which must be.
+    def _priced(self, pool: Pool, fixing: Fixing, delta: float) -> tuple[Pool, Floats, Rows]:
+        """Return the flights up to ``delta``, a guess at their reduced costs, and rows to keep.
 
-    Raises
-    ------
-    ProofError
-        If one is not: then the search for flights loses some.
-    """
-    for d, path in search.flights:
-        time = search.networks[d].duration(path)
-        if relaxation.reduced_cost(d, path) <= delta and not pool.holds(path, time):
-            raise ProofError(f"The flight {path} from station {d} is not in the pool.")
+        Cuts of the relaxation count in full here, which leaves fewer flights.
+        """
+        clock = self.search.clock
+        slices = pool.slices(self.search.n, clock)
+
+        def reduced(duals: Duals, rows: Rows) -> Floats:
+            return reduced_costs(pool, slices, duals, rows, clock)
+
+        rows = Rows.subsets(fixing.cuts.triples)
+        cost = reduced(fixing.duals, rows)
+        keep = cost <= delta + MARGIN
+        if self.tight is not None:
+            rows, cost = self.tight.rows, reduced(self.tight.duals, self.tight.rows)
+        return pool.kept(keep), cost[keep], rows
+
+    def _require_plan(self, pool: Pool, fixing: Fixing, delta: float) -> None:
+        """Check that those flights of the best plan are in the pool which must be.
+
+        Raises
+        ------
+        ProofError
+            If one is not: then the search for flights loses some.
+        """
+        for d, path in self.search.flights:
+            time = self.search.networks[d].duration(path)
+            if fixing.reduced_cost(d, path, time) <= delta and not pool.holds(path, time):
+                raise ProofError(f"The flight {path} from station {d} is not in the pool.")

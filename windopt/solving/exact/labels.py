@@ -60,7 +60,7 @@ class Memory(NamedTuple):
 
 
 class Bound(NamedTuple):
-    """What a label needs at least to end its flight, from :mod:`windopt.solving.exact.arc_fixing`.
+    """What a label needs at least to end its flight, from :mod:`windopt.solving.exact.completions`.
 
     Attributes
     ----------

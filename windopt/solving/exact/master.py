@@ -46,14 +46,6 @@ class Duals:
         paid = np.where(self.sigma == 0.0, 0.0, self.sigma) @ np.where(self.sigma == 0, 0.0, tight)
         return float(self.pi.sum() - self.penalty.sum() + paid)
 
-    def towards(self, other: "Duals", share: float) -> "Duals":
-        """Return ``share`` of ``other`` and the rest of these."""
-        return Duals(
-            (1 - share) * self.pi + share * other.pi,
-            (1 - share) * self.sigma + share * other.sigma,
-            (1 - share) * self.penalty + share * other.penalty,
-        )
-
 
 class Master:
     """Set partitioning, relaxed to covering, over a growing list of columns.

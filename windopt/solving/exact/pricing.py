@@ -1,31 +1,26 @@
 """Pricing: the flights of least reduced cost, by labels from both ends of a flight."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from windopt.solving.exact.both_sides import BothSides
 from windopt.solving.exact.clock import Clock
+from windopt.solving.exact.completions import completion_bounds
 from windopt.solving.exact.joins import ALONE, alone, join
-from windopt.solving.exact.labelling import labels
-from windopt.solving.exact.labels import (
-    LABEL_BYTES,
-    UNBOUNDED,
-    Labels,
-    Memory,
-    Prices,
-    path,
-)
+from windopt.solving.exact.labels import LABEL_BYTES, Labels, Memory, Prices, path
 from windopt.solving.exact.master import Duals, Master
-from windopt.solving.exact.network import Floats, Network, Side
+from windopt.solving.exact.network import Floats, Network
 from windopt.solving.exact.ng_neighbourhoods import Neighbourhoods
-from windopt.solving.exact.subset_row_cuts import Column
-from windopt.solving.exact.waiting_labels import Span
+from windopt.solving.exact.subset_row_cuts import Column, Cuts
 
 TOLERANCE = 1e-6
 """Reduced costs above minus this are not negative: the master's duals are no better."""
-PER_STATION = 40
-"""Flights to return for each station."""
+MOST_LABELS = 100_000_000
+"""Labels of one side of one station, where memory is the only limit."""
+MOST, EACH = 400, 40
+"""Flights to return of all stations, and of each even if there are many stations."""
 
 
 @dataclass(frozen=True)
@@ -39,7 +34,7 @@ class Priced:
     least
         Least reduced cost of a flight of each station, at most 0; shape ``(k,)``.
     complete
-        Whether all labels fitted into memory, so that ``least`` is proved.
+        Whether there was room for all labels, so that ``least`` is proved.
     """
 
     columns: list[Column]
@@ -48,7 +43,7 @@ class Priced:
 
 
 class LabelsOverflow(Exception):  # noqa: N818
-    """More labels than memory allows."""
+    """More labels than memory allows, or than cuts are worth."""
 
 
 @dataclass(frozen=True)
@@ -57,14 +52,20 @@ class Pricer:
 
     Parameters
     ----------
+    neighbourhoods, cores
+        What labels remember, and a part of it, enough to bound what completes them.
     memory
         What the labels of all stations may take [bytes].
+    most
+        Labels of one side of one station to make at most, if memory allows as many.
     """
 
     networks: list[Network]
     neighbourhoods: Neighbourhoods
+    cores: Neighbourhoods
     clock: Clock
     memory: float
+    most: int = MOST_LABELS
 
     def capacity(self, prices: Prices) -> int:
         """Return how many labels of one side of one station fit into memory.
@@ -74,7 +75,18 @@ class Pricer:
         """
         held = LABEL_BYTES + 8 * prices.memory.shape[1]
         sides = 2 * len(self.networks)
-        return int(self.memory / (held * (sides + 2 * min(sides, self.clock.threads))))
+        fitting = int(self.memory / (held * (sides + 2 * min(sides, self.clock.threads))))
+        return min(fitting, self.most)
+
+    def sides(self, prices: Prices) -> BothSides:
+        """Return what labels are made from."""
+        memory, capacity = self.neighbourhoods.memory, self.capacity(prices)
+        return BothSides(self.networks, prices, memory, capacity, self.clock)
+
+    def loose(self, prices: Prices) -> BothSides:
+        """Return what labels are made from that know of no cut and remember little."""
+        bare = Cuts.none(len(prices.pi)).prices(prices.pi, np.zeros(0))
+        return replace(self.sides(bare), memory=self.cores.memory)
 
     def price(
         self, master: Master, duals: Duals, *, exact: bool, keep: int | None = None
@@ -87,36 +99,21 @@ class Pricer:
             Whether to miss none; without, labels are compared by time and cost alone.
         """
         prices = master.cuts.prices(duals.pi, duals.penalty)
-        memory = self.neighbourhoods.memory
-        capacity = self.capacity(prices)
-        sides = [side for network in self.networks for side in (network.forward, network.backward)]
-
-        def half(side: Side, network: Network) -> tuple[Labels, bool]:
-            return labels(
-                side, prices, memory, Span(network.t_max, network.half, bucket(network)), exact,
-                keep or capacity, UNBOUNDED, capacity, self.clock.stop,
-            )  # fmt: skip
-
-        twice = [network for network in self.networks for _ in range(2)]
-        halves = self.clock.map(half, sides, twice)
-        complete = all(whole for _, whole in halves)
+        memory, limits = self.neighbourhoods.memory, duals.toll - TOLERANCE
+        sides = self.sides(prices)
+        costly = exact and bool(prices.penalty.any())
+        bounds = completion_bounds(self.loose(prices), limits) if costly else None
+        halves, complete = sides.labels(bounds or sides.unbounded, exact=exact, keep=keep)
 
         def joined(d: int, limit: float) -> tuple[list[Column], float]:
-            forward, backward = halves[2 * d][0], halves[2 * d + 1][0]
+            forward, backward = halves[2 * d], halves[2 * d + 1]
             return _best(master, d, forward, backward, memory, prices, limit, self.clock.stop)
 
         stations = range(len(self.networks))
-        found = self.clock.map(joined, stations, duals.toll - TOLERANCE)
+        found = self.clock.map(joined, stations, limits)
         columns = [column for flights, _ in found for column in flights]
         least = np.array([cost for _, cost in found]) - duals.toll
         return Priced(columns, np.minimum(least, 0.0), complete)
-
-
-def bucket(network: Network) -> float:
-    """Return the width of a time bucket: below the shortest leg, unless that is very short."""
-    legs = network.legs[network.arcs]
-    shortest = float(legs.min()) if legs.size else network.t_max
-    return max(0.999 * shortest, network.t_max / 300)
 
 
 def _best(
@@ -140,8 +137,9 @@ def _best(
     lone, lone_cost = lone[below], lone_cost[below]
     costs = np.concatenate([cost, lone_cost])
     flights: dict[frozenset[int], Column] = {}
-    for row in np.argsort(costs, kind="stable")[: 4 * PER_STATION]:
-        if costs[row] >= limit or len(flights) == PER_STATION:
+    most = max(EACH, MOST // len(master.networks))
+    for row in np.argsort(costs, kind="stable")[: 4 * most]:
+        if costs[row] >= limit or len(flights) == most:
             break
         if row < len(cost):
             flown = path(forward.node, forward.parent, int(row))

@@ -1,7 +1,7 @@
 """Column generation: the master over the flights at hand, and pricing for those that it lacks."""
 
 from dataclasses import dataclass, field, replace
-from math import ceil, inf
+from math import ceil
 
 import numpy as np
 
@@ -10,16 +10,25 @@ from windopt.solving.exact.labels import Memory, Prices
 from windopt.solving.exact.master import Duals, Master
 from windopt.solving.exact.network import SLACK, Floats, Network
 from windopt.solving.exact.ng_neighbourhoods import nearest
-from windopt.solving.exact.pricing import TOLERANCE, LabelsOverflow, Pricer, bucket
+from windopt.solving.exact.pricing import TOLERANCE, LabelsOverflow, Pricer
 from windopt.solving.exact.search import Flight, Search, alone
-from windopt.solving.exact.subset_row_cuts import Path, separate
+from windopt.solving.exact.subset_row_cuts import Cuts, Path, separate
 
 NEIGHBOURS, MOST_NEIGHBOURS = 8, 16
 """Size of ng-neighbourhoods to begin with, and to let them grow to."""
+CORE = 6
+"""Size of the part that bounds on the rest of a flight remember."""
+HURRIED = ((False, 2), (True, 40))
+"""Ways to price that may miss flights, the quickest first and the other where cuts make labels
+many: whether labels are compared in all respects, and how many of each turbine in each layer are
+kept."""
 MOST_COLUMNS, KEPT_COLUMNS = 6000, 3000
 """Columns at which the dearest are dropped, and how many are kept."""
 ROUNDING = 1e-6
 """A number of flights this much above a whole one is that."""
+WORTH = 300_000
+"""Labels of one side of one station that cuts and fixed legs are worth; comparing more takes
+longer than listing flights."""
 LABELS_SHARE = 0.25
 """Share of the memory that labels may take."""
 HELPFUL = 0.02
@@ -36,10 +45,10 @@ class Fixing:
     ----------
     value
         The bound that the duals prove.
-    prices, toll
-        What the duals ask of turbines and cuts, and of a flight from each station.
-    memory
-        The neighbourhoods.
+    duals, cuts
+        What was asked of flights, and the cut of each penalty.
+    prices, memory
+        The same for labels, and their neighbourhoods.
     completions
         Least cost of the rest of a flight, for each station.
     through
@@ -47,20 +56,28 @@ class Fixing:
     """
 
     value: float
+    duals: Duals
+    cuts: Cuts
     prices: Prices
     memory: Memory
-    toll: Floats
     completions: list[Completions]
     through: list[Floats]
 
     def limits(self, gap: float) -> Floats:
         """Return the cost that no flight of reduced cost up to ``gap`` exceeds, by station."""
-        return self.toll + gap + MARGIN
+        return self.duals.toll + gap + MARGIN
 
     def useful(self, networks: list[Network], gap: float) -> list[Network]:
         """Return the networks without the legs of flights whose reduced cost exceeds ``gap``."""
         each = zip(networks, self.through, self.limits(gap), strict=True)
         return [network.restricted(through <= limit) for network, through, limit in each]
+
+    def reduced_cost(self, station: int, path: Path, time: float) -> float:
+        """Return the reduced cost of a flight without cycles, cuts counted in full."""
+        visits = np.isin(self.cuts.triples, path).sum(axis=1)
+        penalty = self.duals.penalty[visits >= 2].sum()
+        reward = self.duals.pi[list(path)].sum() + self.duals.toll[station]
+        return float(time - reward + penalty)
 
 
 @dataclass
@@ -73,6 +90,8 @@ class Relaxation:
         Least and largest number of flights of each station, and of all, shape ``(k + 1, 2)``.
     duals, least
         Of the last solution, and the least reduced cost that its rounding leaves.
+    crowded
+        Whether labels became more than cuts are worth, so that no more are to be added.
     """
 
     search: Search
@@ -82,15 +101,16 @@ class Relaxation:
     pricer: Pricer = field(init=False)
     duals: Duals = field(init=False)
     least: float = field(init=False)
+    crowded: bool = False
 
     def __post_init__(self) -> None:
         networks = self.search.networks
         self.master = Master(networks, self.counts, self.search.prize)
         flights = (*alone(networks), *self.search.flights)
         self.master.add(self.master.column(d, path) for d, path in flights)
-        neighbourhoods = nearest(self.round_trips, NEIGHBOURS)
+        neighbourhoods, cores = (nearest(self.round_trips, size) for size in (NEIGHBOURS, CORE))
         memory = LABELS_SHARE * self.memory
-        self.pricer = Pricer(networks, neighbourhoods, self.search.clock, memory)
+        self.pricer = Pricer(networks, neighbourhoods, cores, self.search.clock, memory)
 
     @property
     def round_trips(self) -> Floats:
@@ -112,7 +132,8 @@ class Relaxation:
         size = NEIGHBOURS
         while True:
             neighbourhoods = nearest(self.round_trips, size)
-            self.pricer = replace(self.pricer, neighbourhoods=neighbourhoods)
+            cores = nearest(self.round_trips, min(size, CORE))
+            self.pricer = replace(self.pricer, neighbourhoods=neighbourhoods, cores=cores)
             try:
                 return self.solve()
             except LabelsOverflow:
@@ -123,10 +144,8 @@ class Relaxation:
     def solve(self) -> None:
         """Solve the master over all flights.
 
-        Exact pricing is asked about duals half way to the best seen, which swing less [1]; what
-        it finds there bounds every plan by the duals' value + flights * least reduced cost.
-
-        * [1] Wentges (1997), *International Transactions in Operational Research* 4, 151-162.
+        Pricing that may miss flights goes before pricing that does not, which bounds every plan
+        by the duals' value + flights * least reduced cost.
 
         Raises
         ------
@@ -135,43 +154,28 @@ class Relaxation:
         OutOfTime
             If time is up.
         """
-        best, centre, exact = -inf, None, False
+        ways, hurry = HURRIED if len(self.master.cuts) else HURRIED[:1], 0
         while True:
             self.duals = self.master.solve(self.search.clock)
-            if not exact:
-                priced = self.pricer.price(self.master, self.duals, exact=False, keep=2)
-                exact = not self.master.add(priced.columns)
+            if hurry < len(ways):
+                exact, keep = ways[hurry]
+                priced = self.pricer.price(self.master, self.duals, exact=exact, keep=keep)
+                hurry = 0 if self.master.add(priced.columns) else hurry + 1
                 continue
-            trial = self.duals if centre is None else self.duals.towards(centre, 0.5)
-            priced = self.pricer.price(self.master, trial, exact=True)
+            priced = self.pricer.price(self.master, self.duals, exact=True)
             if not priced.complete:
                 raise LabelsOverflow
             least = float(priced.least.min())
-            bound = trial.value(self.counts) + self.search.most_flights * least
-            self.search.prove(bound)
-            if bound > best:
-                best, centre = bound, trial
-            added = self.master.add(priced.columns)
-            if trial is self.duals and (least >= -TOLERANCE or not added):
+            self.search.prove(self.duals.value(self.counts) + self.search.most_flights * least)
+            if least >= -TOLERANCE or not self.master.add(priced.columns):
                 self.least = min(least, -TOLERANCE)
                 cuts = len(self.master.cuts)
                 self.search.note("%d columns, %d cuts", len(self.master.columns), cuts)
                 return
-            if added:
-                exact = False
-            else:
-                centre = None
+            hurry = 0
             if len(self.master.columns) > MOST_COLUMNS:
                 cheapest = np.argsort(self.master.reduced_costs(), kind="stable")[:KEPT_COLUMNS]
                 self.master.rebuild([self.master.columns[r] for r in np.sort(cheapest)])
-
-    def reduced_cost(self, station: int, path: Path) -> float:
-        """Return the reduced cost of a flight without cycles, cuts counted in full."""
-        time = self.search.networks[station].duration(path)
-        visits = np.isin(self.master.cuts.triples, path).sum(axis=1)
-        penalty = self.duals.penalty[visits >= 2].sum()
-        reward = self.duals.pi[list(path)].sum() + self.duals.toll[station]
-        return float(time - reward + penalty)
 
     @property
     def value(self) -> float:
@@ -232,9 +236,9 @@ class Relaxation:
     def cut(self) -> bool:
         """Cut off the fractional solution, and tell whether to go on with that.
 
-        Cuts that make more labels than memory allows are taken back.
+        Cuts that make more labels than memory allows, or than they are worth, are taken back.
         """
-        if self.search.closed:
+        if self.search.closed or self.crowded:
             return False
         self.duals = self.master.solve(self.search.clock)
         gap, before = self.gap, self.master.cuts
@@ -242,12 +246,15 @@ class Relaxation:
         if cuts is None:
             return False
         self.master.rebuild(self.master.columns, cuts)
+        pricer, self.pricer = self.pricer, replace(self.pricer, most=WORTH)
         try:
             self.solve()
         except LabelsOverflow:
+            self.pricer, self.crowded = pricer, True
             self.master.rebuild(self.master.columns, before)
             self.solve()
             return False
+        self.pricer = pricer
         return gap - self.gap >= HELPFUL * gap
 
     def fix_arcs(self, ceiling: float | None = None) -> Fixing | None:
@@ -260,24 +267,18 @@ class Relaxation:
 
         Returns
         -------
-        What remains known of the flights within the gap; None where memory does not suffice.
+        What remains known of the flights within the gap; None where they are too many.
         """
-        clock, networks = self.search.clock, self.pricer.networks
-        prices = self.master.cuts.prices(self.duals.pi, self.duals.penalty)
-        value = self.value
-        gap = self.gap if ceiling is None else ceiling - value
-        memory = self.pricer.neighbourhoods.memory
-
-        def fix(network: Network, limit: float) -> tuple[Completions, Floats] | None:
-            capacity = self.pricer.capacity(prices)
-            return useful_arcs(network, prices, memory, bucket(network), limit, capacity, clock)
-
-        found = clock.map(fix, networks, self.duals.toll + gap + MARGIN)
-        if any(each is None for each in found):
+        gap = self.gap if ceiling is None else ceiling - self.value
+        cuts, duals = self.master.cuts, self.duals
+        prices = cuts.prices(duals.pi, duals.penalty)
+        sides = replace(self.pricer, most=WORTH).sides(prices)
+        found = useful_arcs(sides, self.pricer.loose(prices), duals.toll + gap + MARGIN)
+        if found is None:
+            self.crowded = True
             return None
-        completions, through = zip(*found, strict=True)
-        fixing = Fixing(value, prices, memory, self.duals.toll, list(completions), list(through))
-        networks = fixing.useful(networks, gap)
+        fixing = Fixing(self.value, duals, cuts, prices, sides.memory, *found)
+        networks = fixing.useful(self.pricer.networks, gap)
         self.pricer = replace(self.pricer, networks=networks)
         self.master.restrict(networks)
         self.search.note("%d legs of use", sum(int(each.arcs.sum()) for each in networks))

@@ -5,7 +5,7 @@ hundred; each round raises the bound and drops the flights beyond the gap that i
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import highspy
 import numpy as np
@@ -36,6 +36,10 @@ SATISFIED = 15_000
 """Flights few enough to stop when rows no longer help much."""
 HELPFUL, BARELY = 0.02, 0.003
 """Part of the gap that a round of rows must close, with few flights left and with many."""
+DUAL, PRIMAL = 1, 4
+"""Strategies of HiGHS's simplex method: for rows that were added, and for columns."""
+PRICE = 1e-7
+"""Penalty up to which a row does not matter."""
 
 
 @dataclass(frozen=True)
@@ -44,8 +48,10 @@ class Tightened:
 
     Parameters
     ----------
-    rows
-        The rank-one rows that matter.
+    pool
+        Empty where the bound has reached its target.
+    duals, rows
+        The prices that prove the bound, and the rank-one rows that matter, one to a penalty.
     value
         The bound.
     selection, x
@@ -54,6 +60,7 @@ class Tightened:
 
     pool: Pool
     reduced: Floats
+    duals: Duals
     rows: Rows
     value: float
     selection: "Selection"
@@ -77,23 +84,34 @@ class Tightened:
 class Selection:
     """A linear program over the flights of a pool that seem to matter.
 
+    Where they are too few for the flights that must be sent, others that visit nothing count too.
+
     Parameters
     ----------
     rows
         Rank-one rows to begin with.
     price
         Of leaving each turbine out, shape ``(n,)``.
+    dear
+        Time of a flight that visits nothing; no plan of interest takes as long.
     """
 
-    def __init__(self, n: int, counts: Floats, rows: Rows, price: Floats) -> None:
+    def __init__(self, n: int, counts: Floats, rows: Rows, price: Floats, dear: float) -> None:
         self.n, self.counts, self.rows, self.price = n, counts, rows, price
         self.members: Bools = np.zeros((0, n), bool)
         self.station: Ints = np.zeros(0, np.int32)
         self._program = set_partitioning(n, counts, integer=False, cover=True, price=price)
-        self._program.add_subset_rows(csr_array((rows.m, n)))
+        stations = np.arange(len(counts) - 1)
+        nothing, none = np.zeros((len(stations), n), bool), rows.kept(np.zeros(0, np.intp))
+        idle = flight_rows(nothing, stations.astype(np.int32), len(counts), none)
+        self._program.add_flights(np.full(len(stations), dear), idle)
+        self._first = n + len(stations)
+        self._program.add_subset_rows(csr_array((rows.m, self._first)))
 
     def add(self, pool: Pool) -> None:
         """Add the flights of ``pool``."""
+        warm = bool(len(self.members))  # then the last solution is feasible still
+        self._program.model.setOptionValue("simplex_strategy", PRIMAL if warm else DUAL)
         members = pool.members(self.n)
         coefficients = flight_rows(members, pool.station, len(self.counts), self.rows)
         self._program.add_flights(pool.cost, coefficients)
@@ -102,10 +120,18 @@ class Selection:
 
     def cut(self, rows: Rows) -> None:
         """Add rows."""
+        self._program.model.setOptionValue("simplex_strategy", DUAL)
         flights = csr_array(rows.coefficients(self.members).T)
-        left_out = csr_array((rows.m, self.n))
-        self._program.add_subset_rows(csr_array(hstack([left_out, flights])))
+        others = csr_array((rows.m, self._first))
+        self._program.add_subset_rows(csr_array(hstack([others, flights])))
         self.rows = self.rows.joined(rows)
+
+    def keep_rows(self, keep: Bools) -> None:
+        """Drop the other rows, which must not have a price."""
+        first = self.n + len(self.counts)
+        others = (first + np.flatnonzero(~keep)).astype(np.int32)
+        self._program.model.deleteRows(len(others), others)
+        self.rows = self.rows.kept(keep)
 
     def solve(self, clock: Clock) -> tuple[Duals, Floats]:
         """Return duals and flights flown."""
@@ -116,13 +142,13 @@ class Selection:
         first = self.n + len(self.counts)
         pi = np.clip(dual[: self.n], 0.0, self.price)
         duals = Duals(pi, dual[self.n : first], np.maximum(-dual[first:], 0.0))
-        return duals, np.array(solution.col_value)[self.n :]
+        return duals, np.array(solution.col_value)[self._first :]
 
     def value_with(self, keep: Bools, counts: Floats, clock: Clock) -> float:
         """Return the value of the program with the flights ``keep`` and other limits on counts."""
         model = self._program.model
         rows = np.arange(self.n, self.n + len(counts), dtype=np.int32)
-        dropped = (self.n + np.flatnonzero(~keep)).astype(np.int32)
+        dropped = (self._first + np.flatnonzero(~keep)).astype(np.int32)
         nothing = np.zeros(len(dropped))
         model.changeRowsBounds(len(rows), rows, counts[:, 0].copy(), counts[:, 1].copy())
         model.changeColsBounds(len(dropped), dropped, nothing, nothing)
@@ -154,7 +180,7 @@ def tighten(
     target: float,
     search: Search,
     prove: Callable[[float], None],
-) -> Tightened | None:
+) -> Tightened:
     """Raise the bound over ``pool`` towards ``target``.
 
     Parameters
@@ -168,28 +194,32 @@ def tighten(
 
     Returns
     -------
-    What is left; None where no flight is, so that ``target`` is a bound.
+    What is left; where no flight is, ``target`` is a bound.
     """
     selection, inside = _selected(pool, reduced, rows, counts, search)
     before, larger = -np.inf, False
     for _ in range(ROUNDS):
         duals, x, reduced = price_out(selection, pool, inside, search.clock)
+        rows = selection.rows
         value = duals.value(counts) + search.most_flights * min(0.0, reduced.min(initial=0.0))
         gap = target - value + MARGIN
         keep = reduced <= gap
         pool, reduced, inside = pool.kept(keep), reduced[keep], inside[keep]
         if gap <= MARGIN or not len(pool):
-            prove(target)
-            return None
+            pool, reduced, value = pool.kept(np.zeros(0, np.intp)), reduced[:0], target
+            break
         prove(value)
         stalls = value - before < (HELPFUL if len(pool) <= SATISFIED else BARELY) * gap
         if len(pool) <= SMALL or _whole(x) or (stalls and larger):
             break
         larger, before = larger or stalls, value
+        selection.keep_rows(duals.penalty > PRICE)
         if not _add_violated(selection, x, larger, search.clock):
             break
-    rows = selection.rows.kept(duals.penalty > 1e-7)
-    return Tightened(pool, reduced, rows, value, selection, x)
+    prove(value)
+    matter = duals.penalty > PRICE
+    duals = replace(duals, penalty=duals.penalty[matter])
+    return Tightened(pool, reduced, duals, rows.kept(matter), value, selection, x)
 
 
 def _selected(
@@ -198,7 +228,7 @@ def _selected(
     """Return a program over the flights that seem to matter, and which they are."""
     inside = np.zeros(len(pool), bool)
     inside[np.argsort(reduced, kind="stable")[:FIRST]] = True
-    selection = Selection(search.n, counts, rows, search.forfeit)
+    selection = Selection(search.n, counts, rows, search.forfeit, search.ceiling)
     selection.add(pool.kept(inside))
     return selection, inside
 

@@ -1,0 +1,100 @@
+"""Completions: what the rest of a flight costs at least, told by labels from the other end.
+
+Labels that know of no cut and remember few turbines are made in no time, up to t_max even, where
+those of half of it tell which go on. What completes them completes no flight at less, so tables
+of their costs drop most labels that do know of cuts long before these end.
+"""
+
+import numpy as np
+
+from windopt.solving.exact.both_sides import BothSides
+from windopt.solving.exact.compiled import compiled
+from windopt.solving.exact.labels import Bound, Labels
+from windopt.solving.exact.network import SLACK, Floats, Network, Side
+
+STEPS = 540
+"""Steps of time in a table."""
+
+
+@compiled
+def _reached(found: Labels, side: Side, t_max: float, step: float) -> Floats:
+    """Return the least cost of arriving at each turbine by each time, its own reward left out."""
+    n, steps = len(side.first), int(t_max / step) + 2
+    table = np.full((n, steps), np.inf)
+    for j in range(n):
+        if side.first[j] <= t_max:
+            table[j, int(side.first[j] / step)] = side.first[j]
+    for a in range(len(found.T)):
+        i = found.node[a]
+        for e in range(side.degree[i]):
+            j = side.heads[i, e]
+            t = found.T[a] + side.legs[i, j]
+            if t <= t_max + SLACK:
+                q = int(t / step)
+                table[j, q] = min(table[j, q], found.C[a] + side.legs[i, j])
+    for j in range(n):
+        for q in range(1, steps):
+            table[j, q] = min(table[j, q], table[j, q - 1])
+    return table
+
+
+def tables(network: Network, ahead: Labels, behind: Labels) -> tuple[Floats, Floats, float]:
+    """Return the completion costs of forward and of backward labels, and the step of time."""
+    t_max, step = network.t_max, network.t_max / STEPS
+    forward = _reached(behind, network.backward, t_max, step)
+    return forward, _reached(ahead, network.forward, t_max, step), step
+
+
+def bounds(given: BothSides, found: list[Labels], limits: Floats, *, whole: bool) -> list[Bound]:
+    """Return the bound of each side that labels of the other side tell.
+
+    Parameters
+    ----------
+    limits
+        Cost that no flight of interest exceeds, by station.
+    whole
+        Whether the labels go on to t_max; those of half of it complete no shorter labels.
+    """
+    told = []
+    for d, network in enumerate(given.networks):
+        forward, backward, step = tables(network, found[2 * d], found[2 * d + 1])
+        after = 0.0 if whole else network.half
+        told += [Bound(table, step, after, limits[d]) for table in (forward, backward)]
+    return told
+
+
+def completion_bounds(loose: BothSides, limits: Floats) -> list[Bound] | None:
+    """Return what labels of each side need at least, whatever cuts they are charged for.
+
+    Parameters
+    ----------
+    loose
+        Without cuts, and with small neighbourhoods.
+    limits
+        Cost that no flight of interest exceeds, by station.
+
+    Returns
+    -------
+    A bound for each side; None where memory does not suffice to find them.
+    """
+    halves, complete = loose.labels(loose.unbounded)
+    if not complete:
+        return None
+    wholes, complete = loose.labels(bounds(loose, halves, limits, whole=False), whole=True)
+    return bounds(loose, wholes, limits, whole=True) if complete else None
+
+
+def tightest(one: Bound, other: Bound) -> Bound:
+    """Return what both bounds say of the same side.
+
+    Parameters
+    ----------
+    one
+        Holds at every time.
+    other
+        Holds from some time on, with the same steps and the same limit.
+    """
+    t_max = one.step * STEPS
+    left = one.step * np.arange(one.table.shape[1])
+    table = np.where(left <= t_max - other.after, np.maximum(one.table, other.table), one.table)
+    return one._replace(table=table)
