@@ -122,12 +122,12 @@ def _prove(search: Search, memory: float, seed: int) -> None:
     improve(search, seed + 1, start=rounded)
     closing, effort = Closing(relaxation), float(EFFORT)
     for attempt in count(1):
-        if closing.close(int(effort)):
+        if closing.close(int(effort), in_parts=attempt > 1):
             return
         improve(search, seed + 1 + attempt, THOROUGH * attempt, rounded)
         _narrow(relaxation, NARROWER * relaxation.gap)
         rounded = relaxation.rounded()
-        effort *= MORE
+        effort = min(MORE * effort, memory)  # a half flight takes more than a byte
 
 
 def _narrow(relaxation: Relaxation, gap: float) -> None:

@@ -43,13 +43,15 @@ class Closing:
         """The search to close."""
         return self.relaxation.search
 
-    def close(self, effort: int) -> bool:
+    def close(self, effort: int, *, in_parts: bool) -> bool:
         """Find the best plan, and that there is no better one, unless flights are too many.
 
         Parameters
         ----------
         effort
             Half flights to hold at most, for one side of one station; memory may allow fewer.
+        in_parts
+            Whether to close parts of the gap where the whole is too much.
 
         Returns
         -------
@@ -62,13 +64,13 @@ class Closing:
             self.fixing = fixing
             if self._list(fixing, self.search.ceiling - fixing.value, effort):
                 return True
-        return len(self.relaxation.master.cuts) > 0 and self._close_parts(effort)
-
-    def _close_parts(self, effort: int) -> bool:
-        """Close ever larger parts of the gap, and tell whether that came to the whole."""
-        search, fixing = self.search, self.fixing
-        if fixing is None:
+        if not in_parts or self.fixing is None:
             return False
+        return self._close_parts(self.fixing, effort)
+
+    def _close_parts(self, fixing: Fixing, effort: int) -> bool:
+        """Close ever larger parts of the gap, and tell whether that came to the whole."""
+        search = self.search
         delta = search.bound - fixing.value + LEAST * (search.ceiling - search.bound)
         while self._list(fixing, delta, effort):
             if search.closed or delta >= search.ceiling - fixing.value:

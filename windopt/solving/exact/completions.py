@@ -1,8 +1,8 @@
 """Completions: what the rest of a flight costs at least, told by labels from the other end.
 
-Labels that know of no cut and remember few turbines are made in no time, up to t_max even, where
-those of half of it tell which go on. What completes them completes no flight at less, so tables
-of their costs drop most labels that do know of cuts long before these end.
+Labels that know of no cut and remember few turbines are made in no time, and those up to half of
+t_max tell which matter beyond it. A label that knows of cuts ends its flight for no less than
+one that does not, so tables of their costs drop most labels long before these end.
 """
 
 import numpy as np
@@ -94,7 +94,6 @@ def tightest(one: Bound, other: Bound) -> Bound:
     other
         Holds from some time on, with the same steps and the same limit.
     """
-    t_max = one.step * STEPS
-    left = one.step * np.arange(one.table.shape[1])
-    table = np.where(left <= t_max - other.after, np.maximum(one.table, other.table), one.table)
-    return one._replace(table=table)
+    least = one.step * (1 + np.arange(one.table.shape[1]))  # no label of a step has as much left
+    holds = least <= one.step * STEPS - other.after
+    return one._replace(table=np.where(holds, np.maximum(one.table, other.table), one.table))

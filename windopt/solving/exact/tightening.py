@@ -203,11 +203,9 @@ def tighten(
         rows = selection.rows
         value = duals.value(counts) + search.most_flights * min(0.0, reduced.min(initial=0.0))
         gap = target - value + MARGIN
-        keep = reduced <= gap
+        keep = (reduced <= gap) & (gap > MARGIN)
         pool, reduced, inside = pool.kept(keep), reduced[keep], inside[keep]
-        if gap <= MARGIN or not len(pool):
-            pool, reduced, value = pool.kept(np.zeros(0, np.intp)), reduced[:0], target
-            break
+        value = value if len(pool) else target
         prove(value)
         stalls = value - before < (HELPFUL if len(pool) <= SATISFIED else BARELY) * gap
         if len(pool) <= SMALL or _whole(x) or (stalls and larger):
@@ -216,7 +214,6 @@ def tighten(
         selection.keep_rows(duals.penalty > PRICE)
         if not _add_violated(selection, x, larger, search.clock):
             break
-    prove(value)
     matter = duals.penalty > PRICE
     duals = replace(duals, penalty=duals.penalty[matter])
     return Tightened(pool, reduced, duals, rows.kept(matter), value, selection, x)
