@@ -19,8 +19,8 @@ TOLERANCE = 1e-6
 """Reduced costs above minus this are not negative: the master's duals are no better."""
 MOST_LABELS = 100_000_000
 """Labels of one side of one station, where memory is the only limit."""
-MOST, EACH = 400, 40
-"""Flights to return of all stations, and of each even if there are many stations."""
+FEW, MANY = 40, 400
+"""Flights to return of each station, and of all stations where finding them took long."""
 
 
 @dataclass(frozen=True)
@@ -137,7 +137,8 @@ def _best(
     lone, lone_cost = lone[below], lone_cost[below]
     costs = np.concatenate([cost, lone_cost])
     flights: dict[frozenset[int], Column] = {}
-    most = max(EACH, MOST // len(master.networks))
+    costly = bool(prices.penalty.any())
+    most = max(FEW, MANY // len(master.networks)) if costly else FEW
     for row in np.argsort(costs, kind="stable")[: 4 * most]:
         if costs[row] >= limit or len(flights) == most:
             break

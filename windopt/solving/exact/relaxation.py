@@ -157,6 +157,9 @@ class Relaxation:
         ways, hurry = HURRIED if len(self.master.cuts) else HURRIED[:1], 0
         while True:
             self.duals = self.master.solve(self.search.clock)
+            if len(self.master.columns) > MOST_COLUMNS:
+                self._drop_dear_columns()
+                continue
             if hurry < len(ways):
                 exact, keep = ways[hurry]
                 priced = self.pricer.price(self.master, self.duals, exact=exact, keep=keep)
@@ -173,9 +176,10 @@ class Relaxation:
                 self.search.note("%d columns, %d cuts", len(self.master.columns), cuts)
                 return
             hurry = 0
-            if len(self.master.columns) > MOST_COLUMNS:
-                cheapest = np.argsort(self.master.reduced_costs(), kind="stable")[:KEPT_COLUMNS]
-                self.master.rebuild([self.master.columns[r] for r in np.sort(cheapest)])
+
+    def _drop_dear_columns(self) -> None:
+        cheapest = np.argsort(self.master.reduced_costs(), kind="stable")[:KEPT_COLUMNS]
+        self.master.rebuild([self.master.columns[r] for r in np.sort(cheapest)])
 
     @property
     def value(self) -> float:
@@ -272,7 +276,8 @@ class Relaxation:
         gap = self.gap if ceiling is None else ceiling - self.value
         cuts, duals = self.master.cuts, self.duals
         prices = cuts.prices(duals.pi, duals.penalty)
-        sides = replace(self.pricer, most=WORTH).sides(prices)
+        pricer = replace(self.pricer, most=WORTH) if prices.penalty.any() else self.pricer
+        sides = pricer.sides(prices)
         found = useful_arcs(sides, self.pricer.loose(prices), duals.toll + gap + MARGIN)
         if found is None:
             self.crowded = True
