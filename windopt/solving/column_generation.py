@@ -120,11 +120,11 @@ def _prove(search: Search, memory: float, seed: int) -> None:
         pass
     rounded = relaxation.rounded()
     improve(search, seed + 1, start=rounded)
-    closing, effort = Closing(relaxation), float(EFFORT)
+    closing, effort = Closing(relaxation, seed + 2), float(EFFORT)
     for attempt in count(1):
         if closing.close(int(effort), in_parts=attempt > 1):
             return
-        improve(search, seed + 1 + attempt, THOROUGH * attempt, rounded)
+        improve(search, seed + 2 + attempt, THOROUGH * attempt, rounded)
         _narrow(relaxation, NARROWER * relaxation.gap)
         rounded = relaxation.rounded()
         effort = min(MORE * effort, memory)  # a half flight takes more than a byte

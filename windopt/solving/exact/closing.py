@@ -8,8 +8,9 @@ a larger delta begins with.
 
 from dataclasses import dataclass
 
-from windopt.solving.exact.branching import branch
+from windopt.solving.exact.branching import MOST, branch
 from windopt.solving.exact.enumeration import enumerate_flights
+from windopt.solving.exact.local_search import improve
 from windopt.solving.exact.master import Duals
 from windopt.solving.exact.network import Floats
 from windopt.solving.exact.pool import Pool, reduced_costs
@@ -20,11 +21,18 @@ from windopt.solving.exact.tightening import Tightened, tighten
 
 LEAST, LARGER = 0.1, 1.5
 """Part of the gap to begin with where the whole is too much, and by what it grows."""
+THOROUGH = 8
+"""Times the first local search to search again where many flights are left to choose among."""
 
 
 @dataclass
 class Closing:
     """What is left between the relaxation of a search and its best plan.
+
+    Parameters
+    ----------
+    seed
+        Of the local search.
 
     Attributes
     ----------
@@ -35,6 +43,7 @@ class Closing:
     """
 
     relaxation: Relaxation
+    seed: int
     fixing: Fixing | None = None
     tight: Tightened | None = None
 
@@ -105,8 +114,11 @@ class Closing:
         target = min(fixing.value + delta, search.ceiling)
         pool, reduced, rows = self._priced(pool, fixing, delta)
         self.tight = tighten(pool, reduced, rows, counts, target, search, search.prove)
-        if len(self.tight.pool):
-            search.note("%d flights left above %.3f", len(self.tight.pool), self.tight.value)
+        left = len(self.tight.pool)
+        if left > MOST:
+            improve(search, self.seed, THOROUGH, self.relaxation.rounded())
+        if left:
+            search.note("%d flights left above %.3f", left, self.tight.value)
             branch(self.tight, counts, target, search)
 
     def _priced(self, pool: Pool, fixing: Fixing, delta: float) -> tuple[Pool, Floats, Rows]:

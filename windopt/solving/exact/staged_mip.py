@@ -24,6 +24,8 @@ SIZES = (2500, 5000)
 LITTLE_MORE = 1.3
 LARGER = 2
 """What each stage is of the one before it, where they go on to the end."""
+NODES = 300
+"""Nodes after which HiGHS leaves the rest to branching, which adds rows in each node."""
 
 
 def staged_mip(
@@ -57,7 +59,8 @@ def staged_mip(
         rows = matter if whole else size
         delta = wanted if whole else min(wanted, tight.value + float(reduced[rows]) - MARGIN)
         part = pool.kept(np.arange(rows))
-        bound = max(bound, min(delta, minimise(part, tight.rows, counts, search)))
+        nodes = None if to_the_end else NODES
+        bound = max(bound, min(delta, minimise(part, tight.rows, counts, search, nodes)))
         prove(bound)
         if whole or bound >= search.ceiling - CLOSED:
             break
@@ -74,13 +77,17 @@ def _sizes(flights: int, to_the_end: bool) -> Iterator[int]:
         yield SIZES[0]
 
 
-def minimise(pool: Pool, rows: Rows, counts: Floats, search: Search) -> float:
-    """Offer the search the best plan over ``pool``; return the bound on any such plan.
+def minimise(
+    pool: Pool, rows: Rows, counts: Floats, search: Search, nodes: int | None = None
+) -> float:
+    """Offer the search the best plan found over ``pool``; return the bound on any such plan.
 
     Parameters
     ----------
     rows
         Rank-one rows, which plans keep anyway, to tighten the program.
+    nodes
+        After which to stop; by default when the plan is proved.
     """
     if not len(pool):
         return np.inf
@@ -92,6 +99,8 @@ def minimise(pool: Pool, rows: Rows, counts: Floats, search: Search) -> float:
     program.add_flights(pool.cost, flight_rows(members, pool.station, len(counts), rows))
     model.setOptionValue("mip_rel_gap", 0.0)
     model.setOptionValue("mip_abs_gap", CLOSED)
+    if nodes is not None:
+        model.setOptionValue("mip_max_nodes", nodes)
     status = search.clock.minimise(model)
     info = model.getInfo()
     search.note("%d flights, %d nodes", len(pool), info.mip_node_count)
