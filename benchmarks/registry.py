@@ -28,5 +28,7 @@ def problem(name: str) -> Problem:
     try:
         found: Problem = import_module(PROBLEMS[name]).PROBLEM
     except ModuleNotFoundError as lacking:
+        if (lacking.name or "").split(".")[0] in ("benchmarks", "formulations", "windopt"):
+            raise
         raise MissingExtra(f"The benchmark {name!r} ({lacking.name})", "bench") from lacking
     return found

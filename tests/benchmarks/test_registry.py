@@ -5,7 +5,7 @@ import sys
 import pytest
 
 from benchmarks.__main__ import main
-from benchmarks.registry import PROBLEMS, problem
+from benchmarks.registry import problem
 from windopt.errors import MissingExtra
 
 
@@ -32,5 +32,4 @@ def test_what_needs_no_training_is_there_without_torch(
     name: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     without("torch", monkeypatch)
-    assert name in PROBLEMS
     assert problem(name).instances("small")

@@ -30,7 +30,7 @@ EFFORT, MORE = 300_000, 1.5
 NARROWER = 0.75
 """What cuts must make of a gap whose flights were too many, before they are listed again."""
 ROUNDS = 2
-"""Rounds of cuts after which flights are listed again at the latest."""
+"""Rounds of cuts between two lists, at most."""
 THOROUGH = 2
 """Times the first local search to search again, and more each time flights are too many."""
 SOURCE = "column generation"
@@ -131,7 +131,7 @@ def _prove(search: Search, memory: float, seed: int) -> None:
 
 
 def _narrow(relaxation: Relaxation, gap: float) -> None:
-    """Cut until the relaxation leaves no more than ``gap``, cuts do not help, or enough is cut."""
+    """Cut until the relaxation leaves no more than ``gap``, cuts do not help, or often enough."""
     for _ in range(ROUNDS):
         if relaxation.gap <= gap or not relaxation.cut():
             return

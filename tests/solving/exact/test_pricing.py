@@ -9,8 +9,10 @@ import pytest
 
 from windopt.domain.routing import RoutingInstance
 from windopt.solving.exact.clock import Clock
+from windopt.solving.exact.completions import completion_bounds
 from windopt.solving.exact.enumeration import enumerate_flights
 from windopt.solving.exact.master import Duals
+from windopt.solving.exact.network import SLACK
 from windopt.solving.exact.ng_neighbourhoods import Neighbourhoods
 from windopt.solving.exact.pricing import Pricer
 from windopt.solving.exact.relaxation import Relaxation
@@ -138,6 +140,33 @@ def test_the_least_reduced_cost_is_found(setting):
     for d in range(2):
         least = min(cost for station, cost in costs if station == d)
         assert priced.least[d] == pytest.approx(min(0.0, least), abs=1e-5)
+
+
+def test_bounds_on_completions_lose_no_flight(setting, monkeypatch):
+    _, relaxation, duals = setting
+    bounded = relaxation.pricer.price(relaxation.master, duals, exact=True)
+    monkeypatch.setattr("windopt.solving.exact.pricing.completion_bounds", lambda *_: None)
+    free = relaxation.pricer.price(relaxation.master, duals, exact=True)
+    assert bounded.least == pytest.approx(free.least)
+    assert {frozenset(column.path) for column in bounded.columns} == {
+        frozenset(column.path) for column in free.columns
+    }
+
+
+def test_no_flight_ends_for_less_than_its_bounds(setting):
+    search, relaxation, duals = setting
+    loose = relaxation.pricer.loose(relaxation.master.cuts.prices(duals.pi, duals.penalty))
+    limits = duals.toll + 100.0
+    bounds = completion_bounds(loose, limits)
+    for d, path, time in flights(search.networks):
+        network, total = search.networks[d], time - duals.pi[list(path)].sum()
+        if total > limits[d]:
+            continue
+        for end in range(1, len(path) + 1):
+            flown = network.duration(path[:end]) - network.back[path[end - 1]]
+            so_far = flown - duals.pi[list(path[:end])].sum()
+            left = int((network.t_max - flown + SLACK) / bounds[2 * d].step)
+            assert so_far + bounds[2 * d].table[path[end - 1], left] <= total + 1e-9
 
 
 def test_flights_found_are_as_cheap_as_they_claim(setting):

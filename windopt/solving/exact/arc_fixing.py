@@ -1,7 +1,7 @@
 """Arc fixing: legs that no flight of interest uses.
 
 Half labels tell which labels may still matter beyond half of t_max. With those the labels of both
-sides meet on every leg, which is of no use when the best flight over it costs more than the
+sides meet on every leg; a leg is of no use when the best flight over it costs more than the
 gap [1].
 
 * [1] Irnich, Desaulniers, Desrosiers & Hadjar (2010), *INFORMS Journal on Computing* 22, 297-313.
@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from windopt.solving.exact.bits import NONE
 from windopt.solving.exact.both_sides import BothSides
 from windopt.solving.exact.compiled import compiled
-from windopt.solving.exact.completions import bounds, completion_bounds, tables, tightest
+from windopt.solving.exact.completions import completion_bounds, tables, tightest, told_by
 from windopt.solving.exact.joins import cheapest, partner
 from windopt.solving.exact.labels import EPS, Labels, Memory, carried
 from windopt.solving.exact.network import SLACK, Floats, Network, Side
@@ -89,24 +89,28 @@ def useful_arcs(
     ----------
     given, loose
         With all cuts; and without any, for a first bound.
+    limits
+        Cost that no flight of interest exceeds, shape ``(k,)``.
 
     Returns
     -------
     For each station what completes its labels, and the least cost of a flight over each leg,
-    shape ``(n, n)``; None where memory does not suffice.
+    shape ``(n, n)``; None where labels are too many.
     """
     first = completion_bounds(loose, limits)
     halves, complete = given.labels(first or given.unbounded)
     if not complete:
         return None
-    second = bounds(given, halves, limits, whole=False)
+    second = told_by(halves, given, limits, whole=False)
+    del halves  # labels take memory
     if first is not None:
         second = [tightest(*pair) for pair in zip(first, second, strict=True)]
     wholes, complete = given.labels(second, whole=True)
     if not complete:
         return None
-    pairs = zip(given.networks, wholes[::2], wholes[1::2], strict=True)
-    rest = [Completions(*tables(*each), *each[1:]) for each in pairs]
+    sides = wholes[::2], wholes[1::2]
+    costs = given.clock.map(tables, given.networks, *sides)
+    rest = [Completions(*each, *both) for each, *both in zip(costs, *sides, strict=True)]
     return rest, given.clock.map(partial(_least_through, given), given.networks, rest, limits)
 
 

@@ -9,6 +9,9 @@ from windopt.solving.exact.labels import UNBOUNDED, Bound, Labels, Memory, Price
 from windopt.solving.exact.network import Network, Side
 from windopt.solving.exact.waiting_labels import Span
 
+ALL = 2**31 - 1
+"""Labels of each turbine in each layer to keep where none may be lost."""
+
 
 @dataclass(frozen=True)
 class BothSides:
@@ -54,7 +57,7 @@ class BothSides:
         def made(side: Side, network: Network, bound: Bound) -> tuple[Labels, bool]:
             span = Span(network.t_max, network.t_max if whole else network.half, bucket(network))
             return labels(
-                side, self.prices, self.memory, span, exact, keep or self.capacity, bound,
+                side, self.prices, self.memory, span, exact, keep or ALL, bound,
                 self.capacity, self.clock.stop,
             )  # fmt: skip
 

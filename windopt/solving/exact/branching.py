@@ -73,7 +73,7 @@ def branch(root: Tightened, counts: Floats, target: float, search: Search) -> No
             continue
         pool, reduced = node.pool.kept(keep), node.reduced[keep]
         children = _children(node, counts, wanted, search)
-        if not children:  # the solution is a plan, which a few flights without reduced cost make
+        if not children:  # the solution is a plan, made of a few flights of no reduced cost
             listed = staged_mip(node, counts, target, search, prove, to_the_end=True)
             bound = max(bound, listed)
             proved = min(proved, bound, wanted)
@@ -99,13 +99,16 @@ def _tightened(
 
 
 def _children(node: Tightened, counts: Floats, target: float, search: Search) -> list[Branch]:
-    """Return the two branches that raise the bound most, and none where nothing is fractional."""
-    candidates = [*_on_counts(node.sent, counts), *_on_pairs(node.together, counts)]
+    """Return the two branches that raise the bound most, and none where no question is open."""
+    members = node.selection.members
+    candidates = _on_counts(node.sent, counts)
+    for branches in _on_pairs(node.together, counts):
+        if not any(branch.part(members).all() for branch in branches):
+            candidates.append(branches)
     if len(candidates) < 2:
         return candidates[0] if candidates else []
 
     def gain(branch: Branch) -> float:
-        members = node.selection.members
         value = node.selection.value_with(branch.part(members), branch.counts, search.clock)
         return max(min(value, target) - node.value, LEAST_GAIN)
 

@@ -17,10 +17,11 @@ from windopt.solving.exact.pool import Pool, reduced_costs
 from windopt.solving.exact.rank_one_rows import Rows
 from windopt.solving.exact.relaxation import MARGIN, Fixing, Relaxation
 from windopt.solving.exact.search import ProofError, Search
-from windopt.solving.exact.tightening import Tightened, tighten
+from windopt.solving.exact.tightening import tighten
 
-LEAST, LARGER = 0.1, 1.5
-"""Part of the gap to begin with where the whole is too much, and by what it grows."""
+FIRST_PART, LARGER, SMALLER = 0.1, 1.5, 0.5
+"""Part of the gap to begin with where the whole is too much, by what it grows, and by what it
+shrinks where even the first is too much."""
 THOROUGH = 8
 """Times the first local search to search again where many flights are left to choose among."""
 
@@ -37,15 +38,21 @@ class Closing:
     Attributes
     ----------
     fixing
-        The last that there was memory for; it holds when the relaxation has gone on.
-    tight
-        The last list of flights, tightened.
+        The last that labels were not too many for; it stays true as the relaxation goes on.
+    tried
+        The duals for which legs were fixed last, or could not be.
+    known
+        Duals and rows of the last list of flights, with which the next begins.
+    part
+        Part of the gap to begin with where the whole is too much.
     """
 
     relaxation: Relaxation
     seed: int
     fixing: Fixing | None = None
-    tight: Tightened | None = None
+    tried: Duals | None = None
+    known: tuple[Duals, Rows] | None = None
+    part: float = FIRST_PART
 
     @property
     def search(self) -> Search:
@@ -53,7 +60,7 @@ class Closing:
         return self.relaxation.search
 
     def close(self, effort: int, *, in_parts: bool) -> bool:
-        """Find the best plan, and that there is no better one, unless flights are too many.
+        """Find the best plan and prove it, unless flights are too many.
 
         Parameters
         ----------
@@ -66,28 +73,31 @@ class Closing:
         -------
         Whether the gap is closed.
         """
-        if self.search.closed:
+        search = self.search
+        if search.closed:
             return True
-        fixing = None if self.relaxation.crowded else self.relaxation.fix_arcs()
-        if fixing is not None:
-            self.fixing = fixing
-            if self._list(fixing, self.search.ceiling - fixing.value, effort):
+        if self.relaxation.duals is not self.tried:
+            self.tried = self.relaxation.duals
+            fixing = self.relaxation.fix_arcs()
+            self.fixing = fixing or self.fixing
+            if fixing and self._search_within(search.ceiling - fixing.value, fixing, effort):
                 return True
-        if not in_parts or self.fixing is None:
-            return False
-        return self._close_parts(self.fixing, effort)
+        return bool(in_parts and self.fixing and self._close_parts(self.fixing, effort))
 
     def _close_parts(self, fixing: Fixing, effort: int) -> bool:
         """Close ever larger parts of the gap, and tell whether that came to the whole."""
-        search = self.search
-        delta = search.bound - fixing.value + LEAST * (search.ceiling - search.bound)
-        while self._list(fixing, delta, effort):
+        search, part = self.search, self.part
+        while True:
+            proved = max(0.0, search.bound - fixing.value)
+            delta = proved + part * (search.ceiling - search.bound)
+            if not self._search_within(delta, fixing, effort):
+                self.part *= SMALLER if part == self.part else 1.0
+                return False
             if search.closed or delta >= search.ceiling - fixing.value:
                 return True
-            delta *= LARGER
-        return False
+            part = min(1.0, LARGER * part)
 
-    def _list(self, fixing: Fixing, delta: float, effort: int) -> bool:
+    def _search_within(self, delta: float, fixing: Fixing, effort: int) -> bool:
         """Look for a plan of flights of a reduced cost up to ``delta``, unless they are too many.
 
         Returns
@@ -113,18 +123,19 @@ class Closing:
         search, counts = self.search, self.relaxation.counts
         target = min(fixing.value + delta, search.ceiling)
         pool, reduced, rows = self._priced(pool, fixing, delta)
-        self.tight = tighten(pool, reduced, rows, counts, target, search, search.prove)
-        left = len(self.tight.pool)
-        if left > MOST:
+        tight = tighten(pool, reduced, rows, counts, target, search, search.prove)
+        self.known = tight.duals, tight.rows
+        if len(tight.pool) > MOST:
             improve(search, self.seed, THOROUGH, self.relaxation.rounded())
-        if left:
-            search.note("%d flights left above %.3f", left, self.tight.value)
-            branch(self.tight, counts, target, search)
+        if len(tight.pool):
+            search.note("%d flights left above %.3f", len(tight.pool), tight.value)
+            branch(tight, counts, target, search)
 
     def _priced(self, pool: Pool, fixing: Fixing, delta: float) -> tuple[Pool, Floats, Rows]:
-        """Return the flights up to ``delta``, a guess at their reduced costs, and rows to keep.
+        """Return flights up to ``delta``, a guess at their reduced costs, and rows to begin with.
 
-        Cuts of the relaxation count in full here, which leaves fewer flights.
+        Flights without cycles keep cuts in full, which leaves fewer of them. The guess is by the
+        duals of the last list, where there was one.
         """
         clock = self.search.clock
         slices = pool.slices(self.search.n, clock)
@@ -135,8 +146,9 @@ class Closing:
         rows = Rows.subsets(fixing.cuts.triples)
         cost = reduced(fixing.duals, rows)
         keep = cost <= delta + MARGIN
-        if self.tight is not None:
-            rows, cost = self.tight.rows, reduced(self.tight.duals, self.tight.rows)
+        if self.known is not None:
+            duals, rows = self.known
+            cost = reduced(duals, rows)
         return pool.kept(keep), cost[keep], rows
 
     def _require_plan(self, pool: Pool, fixing: Fixing, delta: float) -> None:

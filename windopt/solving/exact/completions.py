@@ -1,8 +1,9 @@
 """Completions: what the rest of a flight costs at least, told by labels from the other end.
 
-Labels that know of no cut and remember few turbines are made in no time, and those up to half of
-t_max tell which matter beyond it. A label that knows of cuts ends its flight for no less than
-one that does not, so tables of their costs drop most labels long before these end.
+Labels that know of no cut and remember few turbines are made quickly: first those up to half of
+t_max, then, dropped by what these tell, those up to t_max. A label that knows of cuts ends its
+flight for no less than one that does not, so tables of the costs of the latter drop most labels
+long before these end.
 """
 
 import numpy as np
@@ -45,21 +46,24 @@ def tables(network: Network, ahead: Labels, behind: Labels) -> tuple[Floats, Flo
     return forward, _reached(ahead, network.forward, t_max, step), step
 
 
-def bounds(given: BothSides, found: list[Labels], limits: Floats, *, whole: bool) -> list[Bound]:
-    """Return the bound of each side that labels of the other side tell.
+def told_by(found: list[Labels], given: BothSides, limits: Floats, *, whole: bool) -> list[Bound]:
+    """Return what each side's labels need at least to end their flights, told by the other side's.
 
     Parameters
     ----------
+    found
+        Forward and backward labels, station by station.
     limits
         Cost that no flight of interest exceeds, by station.
     whole
         Whether the labels go on to t_max; those of half of it complete no shorter labels.
     """
+    found_tables = given.clock.map(tables, given.networks, found[::2], found[1::2])
     told = []
-    for d, network in enumerate(given.networks):
-        forward, backward, step = tables(network, found[2 * d], found[2 * d + 1])
+    for network, limit, each in zip(given.networks, limits, found_tables, strict=True):
+        forward, backward, step = each
         after = 0.0 if whole else network.half
-        told += [Bound(table, step, after, limits[d]) for table in (forward, backward)]
+        told += [Bound(table, step, after, limit) for table in (forward, backward)]
     return told
 
 
@@ -77,11 +81,12 @@ def completion_bounds(loose: BothSides, limits: Floats) -> list[Bound] | None:
     -------
     A bound for each side; None where memory does not suffice to find them.
     """
-    halves, complete = loose.labels(loose.unbounded)
-    if not complete:
-        return None
-    wholes, complete = loose.labels(bounds(loose, halves, limits, whole=False), whole=True)
-    return bounds(loose, wholes, limits, whole=True) if complete else None
+    found, complete = loose.labels(loose.unbounded)
+    if complete:
+        first = told_by(found, loose, limits, whole=False)
+        del found  # labels take memory
+        found, complete = loose.labels(first, whole=True)
+    return told_by(found, loose, limits, whole=True) if complete else None
 
 
 def tightest(one: Bound, other: Bound) -> Bound:
@@ -94,6 +99,8 @@ def tightest(one: Bound, other: Bound) -> Bound:
     other
         Holds from some time on, with the same steps and the same limit.
     """
-    least = one.step * (1 + np.arange(one.table.shape[1]))  # no label of a step has as much left
+    least = one.step * (
+        1 + np.arange(one.table.shape[1])
+    )  # a label in step q has less than q + 1 steps left
     holds = least <= one.step * STEPS - other.after
     return one._replace(table=np.where(holds, np.maximum(one.table, other.table), one.table))

@@ -20,7 +20,7 @@ from windopt.solving.exact.network import Floats, Network, Side
 from windopt.solving.exact.pool import Pool, Tree
 from windopt.solving.exact.relaxation import Fixing
 
-HALVES_SHARE, FLIGHTS_SHARE = 0.3, 0.4
+HALVES_SHARE, FLIGHTS_SHARE = 0.25, 0.35
 """Shares of the memory that half flights and flights may take."""
 JOINED = 4
 """Flights to allow for each half flight allowed."""

@@ -20,7 +20,7 @@ TOLERANCE = 1e-6
 MOST_LABELS = 100_000_000
 """Labels of one side of one station, where memory is the only limit."""
 FEW, MANY = 40, 400
-"""Flights to return of each station, and of all stations where finding them took long."""
+"""Flights to return of each station, and of all together, at least, where cuts have prices."""
 
 
 @dataclass(frozen=True)
@@ -43,7 +43,7 @@ class Priced:
 
 
 class LabelsOverflow(Exception):  # noqa: N818
-    """More labels than memory allows, or than cuts are worth."""
+    """More labels than there is room for."""
 
 
 @dataclass(frozen=True)
@@ -96,7 +96,10 @@ class Pricer:
         Parameters
         ----------
         exact
-            Whether to miss none; without, labels are compared by time and cost alone.
+            Whether labels are compared in all respects; without, by time and cost alone.
+        keep
+            Labels of each turbine in each layer to keep; by default all. Only where all are kept
+            and compared in all respects is no flight missed.
         """
         prices = master.cuts.prices(duals.pi, duals.penalty)
         memory, limits = self.neighbourhoods.memory, duals.toll - TOLERANCE

@@ -17,11 +17,10 @@ from windopt.solving.exact.subset_row_cuts import Cuts, Path, separate
 NEIGHBOURS, MOST_NEIGHBOURS = 8, 16
 """Size of ng-neighbourhoods to begin with, and to let them grow to."""
 CORE = 6
-"""Size of the part that bounds on the rest of a flight remember."""
+"""Size of the neighbourhoods of labels that only bound what completes others."""
 HURRIED = ((False, 2), (True, 40))
-"""Ways to price that may miss flights, the quickest first and the other where cuts make labels
-many: whether labels are compared in all respects, and how many of each turbine in each layer are
-kept."""
+"""Ways to price that may miss flights, the quickest first and the second only with cuts: whether
+labels are compared in all respects, and how many of each turbine in each layer are kept."""
 MOST_COLUMNS, KEPT_COLUMNS = 6000, 3000
 """Columns at which the dearest are dropped, and how many are kept."""
 ROUNDING = 1e-6
@@ -29,8 +28,8 @@ ROUNDING = 1e-6
 WORTH = 300_000
 """Labels of one side of one station that cuts and fixed legs are worth; comparing more takes
 longer than listing flights."""
-LABELS_SHARE = 0.25
-"""Share of the memory that labels may take."""
+LABELS_SHARE = 0.2
+"""Share of the memory that labels may take; those that fixed the legs are held as well."""
 HELPFUL = 0.02
 """Part of the gap that a round of cuts must close to be followed by another."""
 MARGIN = 1e-4
@@ -46,9 +45,9 @@ class Fixing:
     value
         The bound that the duals prove.
     duals, cuts
-        What was asked of flights, and the cut of each penalty.
+        The prices of flights, and the cut of each penalty.
     prices, memory
-        The same for labels, and their neighbourhoods.
+        The same as bits for labels, and the neighbourhoods of these.
     completions
         Least cost of the rest of a flight, for each station.
     through
@@ -91,7 +90,7 @@ class Relaxation:
     duals, least
         Of the last solution, and the least reduced cost that its rounding leaves.
     crowded
-        Whether labels became more than cuts are worth, so that no more are to be added.
+        Whether cuts have made more labels than there is room for, so that no more are added.
     """
 
     search: Search
@@ -178,6 +177,7 @@ class Relaxation:
             hurry = 0
 
     def _drop_dear_columns(self) -> None:
+        """Keep the cheapest columns, the basis among them, and start anew."""
         cheapest = np.argsort(self.master.reduced_costs(), kind="stable")[:KEPT_COLUMNS]
         self.master.rebuild([self.master.columns[r] for r in np.sort(cheapest)])
 
@@ -231,11 +231,19 @@ class Relaxation:
         least = ceil(self.search.bound / longest - ROUNDING)
         if self.search.partial or not self.counts[-1, 0] < least <= self.counts[:-1, 1].sum():
             return False
-        self.counts = self.counts.copy()
-        self.counts[-1, 0] = least
-        self.master.recount(self.counts)
-        self.solve()
+        before = self.counts
+        self._recount(np.vstack([before[:-1], [least, before[-1, 1]]]))
+        try:
+            self.solve()
+        except LabelsOverflow:
+            self._recount(before)
+            self.solve()
+            return False
         return True
+
+    def _recount(self, counts: Floats) -> None:
+        self.counts = counts
+        self.master.recount(counts)
 
     def cut(self) -> bool:
         """Cut off the fractional solution, and tell whether to go on with that.
@@ -244,9 +252,9 @@ class Relaxation:
         """
         if self.search.closed or self.crowded:
             return False
-        self.duals = self.master.solve(self.search.clock)
+        duals = self.master.solve(self.search.clock)  # not priced: others are proved
         gap, before = self.gap, self.master.cuts
-        cuts = separate(before.kept(self.duals.penalty > TOLERANCE), self.master.flown())
+        cuts = separate(before.kept(duals.penalty > TOLERANCE), self.master.flown())
         if cuts is None:
             return False
         self.master.rebuild(self.master.columns, cuts)
@@ -271,7 +279,7 @@ class Relaxation:
 
         Returns
         -------
-        What remains known of the flights within the gap; None where they are too many.
+        What remains known of the flights within the gap; None where labels are too many.
         """
         gap = self.gap if ceiling is None else ceiling - self.value
         cuts, duals = self.master.cuts, self.duals
@@ -280,7 +288,7 @@ class Relaxation:
         sides = pricer.sides(prices)
         found = useful_arcs(sides, self.pricer.loose(prices), duals.toll + gap + MARGIN)
         if found is None:
-            self.crowded = True
+            self.crowded = self.crowded or bool(prices.penalty.any())
             return None
         fixing = Fixing(self.value, duals, cuts, prices, sides.memory, *found)
         networks = fixing.useful(self.pricer.networks, gap)

@@ -47,7 +47,7 @@ def staged_mip(
 
     Returns
     -------
-    A bound on all such plans; ``target`` where every flight was looked at.
+    A bound on all such plans, at most ``target``.
     """
     order = np.argsort(tight.reduced, kind="stable")
     pool, reduced = tight.pool.kept(order), tight.reduced[order]
@@ -109,4 +109,5 @@ def minimise(
     if info.primal_solution_status == highspy.SolutionStatus.kSolutionStatusFeasible:
         x = np.array(model.getSolution().col_value)[before:]
         search.offer([(int(pool.station[r]), pool.path(int(r))) for r in np.flatnonzero(x > 0.5)])
+    search.clock.check()
     return float(info.mip_dual_bound)

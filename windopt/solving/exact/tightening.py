@@ -84,7 +84,8 @@ class Tightened:
 class Selection:
     """A linear program over the flights of a pool that seem to matter.
 
-    Where they are too few for the flights that must be sent, others that visit nothing count too.
+    Where flights are too few for those that must be sent, idle ones, which visit nothing, make up
+    the number, so that there always is a solution. They come first, one of each station.
 
     Parameters
     ----------
@@ -92,25 +93,24 @@ class Selection:
         Rank-one rows to begin with.
     price
         Of leaving each turbine out, shape ``(n,)``.
-    dear
-        Time of a flight that visits nothing; no plan of interest takes as long.
+    idle_cost
+        Time of an idle flight, at least that of any plan of interest.
     """
 
-    def __init__(self, n: int, counts: Floats, rows: Rows, price: Floats, dear: float) -> None:
+    def __init__(self, n: int, counts: Floats, rows: Rows, price: Floats, idle_cost: float) -> None:
         self.n, self.counts, self.rows, self.price = n, counts, rows, price
-        self.members: Bools = np.zeros((0, n), bool)
-        self.station: Ints = np.zeros(0, np.int32)
+        idle = len(counts) - 1
+        self.members: Bools = np.zeros((idle, n), bool)
+        self.station: Ints = np.arange(idle, dtype=np.int32)
         self._program = set_partitioning(n, counts, integer=False, cover=True, price=price)
-        stations = np.arange(len(counts) - 1)
-        nothing, none = np.zeros((len(stations), n), bool), rows.kept(np.zeros(0, np.intp))
-        idle = flight_rows(nothing, stations.astype(np.int32), len(counts), none)
-        self._program.add_flights(np.full(len(stations), dear), idle)
-        self._first = n + len(stations)
-        self._program.add_subset_rows(csr_array((rows.m, self._first)))
+        none = rows.kept(np.zeros(0, np.intp))
+        coefficients = flight_rows(self.members, self.station, len(counts), none)
+        self._program.add_flights(np.full(idle, idle_cost), coefficients)
+        self._program.add_subset_rows(csr_array((rows.m, n + idle)))
 
     def add(self, pool: Pool) -> None:
         """Add the flights of ``pool``."""
-        warm = bool(len(self.members))  # then the last solution is feasible still
+        warm = len(self.members) >= len(self.counts)  # columns leave the last basis feasible
         self._program.model.setOptionValue("simplex_strategy", PRIMAL if warm else DUAL)
         members = pool.members(self.n)
         coefficients = flight_rows(members, pool.station, len(self.counts), self.rows)
@@ -122,12 +122,12 @@ class Selection:
         """Add rows."""
         self._program.model.setOptionValue("simplex_strategy", DUAL)
         flights = csr_array(rows.coefficients(self.members).T)
-        others = csr_array((rows.m, self._first))
-        self._program.add_subset_rows(csr_array(hstack([others, flights])))
+        left_out = csr_array((rows.m, self.n))
+        self._program.add_subset_rows(csr_array(hstack([left_out, flights])))
         self.rows = self.rows.joined(rows)
 
     def keep_rows(self, keep: Bools) -> None:
-        """Drop the other rows, which must not have a price."""
+        """Keep these rows; the others must have no price."""
         first = self.n + len(self.counts)
         others = (first + np.flatnonzero(~keep)).astype(np.int32)
         self._program.model.deleteRows(len(others), others)
@@ -142,13 +142,13 @@ class Selection:
         first = self.n + len(self.counts)
         pi = np.clip(dual[: self.n], 0.0, self.price)
         duals = Duals(pi, dual[self.n : first], np.maximum(-dual[first:], 0.0))
-        return duals, np.array(solution.col_value)[self._first :]
+        return duals, np.array(solution.col_value)[self.n :]
 
     def value_with(self, keep: Bools, counts: Floats, clock: Clock) -> float:
         """Return the value of the program with the flights ``keep`` and other limits on counts."""
         model = self._program.model
         rows = np.arange(self.n, self.n + len(counts), dtype=np.int32)
-        dropped = (self._first + np.flatnonzero(~keep)).astype(np.int32)
+        dropped = (self.n + np.flatnonzero(~keep)).astype(np.int32)
         nothing = np.zeros(len(dropped))
         model.changeRowsBounds(len(rows), rows, counts[:, 0].copy(), counts[:, 1].copy())
         model.changeColsBounds(len(dropped), dropped, nothing, nothing)

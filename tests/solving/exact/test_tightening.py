@@ -1,0 +1,49 @@
+"""The linear program over some flights of a pool."""
+
+from math import inf
+
+import numpy as np
+import pytest
+
+from windopt.solving.exact.clock import Clock
+from windopt.solving.exact.pool import Pool, Tree
+from windopt.solving.exact.rank_one_rows import Rows
+from windopt.solving.exact.subset_row_cuts import packed
+from windopt.solving.exact.tightening import Selection
+
+
+def pool(members, cost, station):
+    """Return a pool of flights without halves."""
+    m = len(cost)
+    none = np.full(m, -1, np.int32)
+    trees = [(Tree(none, none), Tree(none, none))] * 2
+    return Pool(np.array(cost), np.array(station, np.int32), none, none, packed(members), trees)
+
+
+def test_flights_that_must_be_sent_and_are_lacking_are_dear_not_impossible():
+    counts = np.array([[0.0, inf], [0.0, inf], [2.0, inf]])
+    once = Rows.subsets(np.array([[0, 1, 2]]))
+    selection = Selection(3, counts, once, np.full(3, 50.0), 50.0)
+    selection.add(pool(np.ones((1, 3), bool), [10.0], [0]))
+    with Clock(60.0) as clock:
+        duals, flown = selection.solve(clock)
+    assert flown[:2].sum() == pytest.approx(1.0)  # idle
+    assert flown[2] == pytest.approx(1.0)
+    assert duals.value(counts) == pytest.approx(60.0)
+
+
+def test_rows_without_a_price_may_go():
+    members = np.array([[1, 1, 0], [0, 1, 1], [1, 0, 1], [1, 1, 1]], bool)
+    counts = np.tile([0.0, inf], (3, 1))
+    none = Rows.subsets(np.zeros((0, 3), np.int64))
+    selection = Selection(3, counts, none, np.full(3, 50.0), 50.0)
+    selection.add(pool(members, [10.0, 10.0, 10.0, 18.0], [0, 1, 0, 1]))
+    with Clock(60.0) as clock:
+        before = selection.solve(clock)[0].value(counts)
+        selection.cut(Rows.subsets(np.array([[0, 1, 2], [0, 1, 2]])))
+        duals, _ = selection.solve(clock)
+        selection.keep_rows(duals.penalty > 1e-7)
+        after, _ = selection.solve(clock)
+    assert before == pytest.approx(15.0)
+    assert selection.rows.m == len(after.penalty) == 1
+    assert after.value(counts) == pytest.approx(18.0)
