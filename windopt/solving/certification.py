@@ -14,10 +14,11 @@ from windopt.domain.routing import Route, RoutingInstance
 from windopt.solving.exact.cases import CLOSED, MARGIN, Left, as_round, prove
 from windopt.solving.exact.clock import Clock, OutOfTime
 from windopt.solving.exact.enumeration import enumerate_flights
+from windopt.solving.exact.fixing import Fixing
 from windopt.solving.exact.pool import Pool, reduced_costs
 from windopt.solving.exact.pricing import LabelsOverflow
 from windopt.solving.exact.rank_one_rows import Rows
-from windopt.solving.exact.relaxation import Fixing, Relaxation
+from windopt.solving.exact.relaxation import Relaxation
 from windopt.solving.exact.search import Search
 
 EFFORT = 2_000_000

@@ -8,7 +8,6 @@ gap [1].
 """
 
 from functools import partial
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,30 +15,16 @@ from numpy.typing import NDArray
 from windopt.solving.exact.bits import NONE
 from windopt.solving.exact.both_sides import BothSides
 from windopt.solving.exact.compiled import compiled
-from windopt.solving.exact.completions import completion_bounds, tables, tightest, told_by
+from windopt.solving.exact.completions import (
+    Completions,
+    completion_bounds,
+    tables,
+    tightest,
+    told_by,
+)
 from windopt.solving.exact.joins import cheapest, partner
 from windopt.solving.exact.labels import EPS, Labels, Memory, carried
 from windopt.solving.exact.network import SLACK, Floats, Network, Side
-
-
-class Completions(NamedTuple):
-    """Least cost of the rest of a flight, seen by forward and by backward labels.
-
-    Attributes
-    ----------
-    forward, backward
-        By turbine and time left, shape ``(n, steps)``; the turbine's own reward is not in it.
-    step
-        Width of a step.
-    ahead, behind
-        The forward and backward labels themselves, as far as they matter.
-    """
-
-    forward: Floats
-    backward: Floats
-    step: float
-    ahead: Labels
-    behind: Labels
 
 
 @compiled

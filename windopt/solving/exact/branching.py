@@ -15,10 +15,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from windopt.solving.exact.fixing import MARGIN
 from windopt.solving.exact.network import Bools, Floats
 from windopt.solving.exact.pool import Pool
 from windopt.solving.exact.rank_one_rows import Rows
-from windopt.solving.exact.relaxation import MARGIN
 from windopt.solving.exact.search import CLOSED, Search
 from windopt.solving.exact.staged_mip import LITTLE_MORE, SIZES, staged_mip
 from windopt.solving.exact.tightening import Tightened, tighten

@@ -19,6 +19,7 @@ from windopt.solving.exact.network import Bools, Floats
 from windopt.solving.exact.pool import Pool
 from windopt.solving.exact.rank_one_rows import Rows
 from windopt.solving.exact.search import ProofError, Search
+from windopt.solving.exact.selection import Selection
 from windopt.solving.exact.subset_row_cuts import MOST_VIOLATED, Triples, spread, violations
 from windopt.solving.exact.tightening import (
     EACH,
@@ -26,7 +27,6 @@ from windopt.solving.exact.tightening import (
     HELPFUL,
     LEAST_VIOLATION,
     ROWS,
-    Selection,
     price_out,
 )
 

@@ -10,12 +10,13 @@ from dataclasses import dataclass
 
 from windopt.solving.exact.branching import MOST, branch
 from windopt.solving.exact.enumeration import enumerate_flights
+from windopt.solving.exact.fixing import MARGIN, Fixing
 from windopt.solving.exact.local_search import improve
 from windopt.solving.exact.master import Duals
 from windopt.solving.exact.network import Floats
 from windopt.solving.exact.pool import Pool, reduced_costs
 from windopt.solving.exact.rank_one_rows import Rows
-from windopt.solving.exact.relaxation import MARGIN, Fixing, Relaxation
+from windopt.solving.exact.relaxation import Relaxation
 from windopt.solving.exact.search import ProofError, Search
 from windopt.solving.exact.tightening import tighten
 

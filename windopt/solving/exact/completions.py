@@ -6,6 +6,8 @@ flight for no less than one that does not, so tables of the costs of the latter 
 long before these end.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
 from windopt.solving.exact.both_sides import BothSides
@@ -15,6 +17,26 @@ from windopt.solving.exact.network import SLACK, Floats, Network, Side
 
 STEPS = 540
 """Steps of time in a table."""
+
+
+class Completions(NamedTuple):
+    """Least cost of the rest of a flight, seen by forward and by backward labels.
+
+    Attributes
+    ----------
+    forward, backward
+        By turbine and time left, shape ``(n, steps)``; the turbine's own reward is not in it.
+    step
+        Width of a step.
+    ahead, behind
+        The forward and backward labels themselves, as far as they matter.
+    """
+
+    forward: Floats
+    backward: Floats
+    step: float
+    ahead: Labels
+    behind: Labels
 
 
 @compiled

@@ -10,15 +10,15 @@ bound + gap uses no other flight [1].
 import numpy as np
 from numpy.typing import NDArray
 
-from windopt.solving.exact.arc_fixing import Completions
 from windopt.solving.exact.clock import Clock
+from windopt.solving.exact.completions import Completions
+from windopt.solving.exact.fixing import Fixing
 from windopt.solving.exact.half_flights import Halves, Interest, half_flights
 from windopt.solving.exact.hashing import empty_slots
 from windopt.solving.exact.joined_halves import Sets, Terms, join_halves
 from windopt.solving.exact.labels import Labels, Memory, Prices
 from windopt.solving.exact.network import Floats, Network, Side
 from windopt.solving.exact.pool import Pool, Tree
-from windopt.solving.exact.relaxation import Fixing
 
 HALVES_SHARE, FLIGHTS_SHARE = 0.25, 0.35
 """Shares of the memory that half flights and flights may take."""

@@ -5,14 +5,14 @@ from math import ceil
 
 import numpy as np
 
-from windopt.solving.exact.arc_fixing import Completions, useful_arcs
-from windopt.solving.exact.labels import Memory, Prices
+from windopt.solving.exact.arc_fixing import useful_arcs
+from windopt.solving.exact.fixing import MARGIN, Fixing
 from windopt.solving.exact.master import Duals, Master
-from windopt.solving.exact.network import SLACK, Floats, Network
+from windopt.solving.exact.network import SLACK, Floats
 from windopt.solving.exact.ng_neighbourhoods import nearest
 from windopt.solving.exact.pricing import TOLERANCE, LabelsOverflow, Pricer
 from windopt.solving.exact.search import Flight, Search, alone
-from windopt.solving.exact.subset_row_cuts import Cuts, Path, separate
+from windopt.solving.exact.subset_row_cuts import separate
 
 NEIGHBOURS, MOST_NEIGHBOURS = 8, 16
 """Size of ng-neighbourhoods to begin with, and to let them grow to."""
@@ -32,51 +32,6 @@ LABELS_SHARE = 0.2
 """Share of the memory that labels may take; those that fixed the legs are held as well."""
 HELPFUL = 0.02
 """Part of the gap that a round of cuts must close to be followed by another."""
-MARGIN = 1e-4
-"""What a gap is widened by before anything is dropped, for the rounding of duals."""
-
-
-@dataclass(frozen=True)
-class Fixing:
-    """What is known of flights whose reduced cost is within a gap.
-
-    Parameters
-    ----------
-    value
-        The bound that the duals prove.
-    duals, cuts
-        The prices of flights, and the cut of each penalty.
-    prices, memory
-        The same as bits for labels, and the neighbourhoods of these.
-    completions
-        Least cost of the rest of a flight, for each station.
-    through
-        Least cost of a flight over each leg, ``(n, n)`` for each station.
-    """
-
-    value: float
-    duals: Duals
-    cuts: Cuts
-    prices: Prices
-    memory: Memory
-    completions: list[Completions]
-    through: list[Floats]
-
-    def limits(self, gap: float) -> Floats:
-        """Return the cost that no flight of reduced cost up to ``gap`` exceeds, by station."""
-        return self.duals.toll + gap + MARGIN
-
-    def useful(self, networks: list[Network], gap: float) -> list[Network]:
-        """Return the networks without the legs of flights whose reduced cost exceeds ``gap``."""
-        each = zip(networks, self.through, self.limits(gap), strict=True)
-        return [network.restricted(through <= limit) for network, through, limit in each]
-
-    def reduced_cost(self, station: int, path: Path, time: float) -> float:
-        """Return the reduced cost of a flight without cycles, cuts counted in full."""
-        visits = np.isin(self.cuts.triples, path).sum(axis=1)
-        penalty = self.duals.penalty[visits >= 2].sum()
-        reward = self.duals.pi[list(path)].sum() + self.duals.toll[station]
-        return float(time - reward + penalty)
 
 
 @dataclass

@@ -12,12 +12,13 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from formulations.set_partitioning import set_partitioning
+from windopt.solving.exact.fixing import MARGIN
 from windopt.solving.exact.network import Floats
 from windopt.solving.exact.pool import Pool
 from windopt.solving.exact.rank_one_rows import Rows
-from windopt.solving.exact.relaxation import MARGIN
 from windopt.solving.exact.search import CLOSED, Search
-from windopt.solving.exact.tightening import Tightened, flight_rows
+from windopt.solving.exact.selection import flight_rows
+from windopt.solving.exact.tightening import Tightened
 
 SIZES = (2500, 5000)
 """Flights of each stage; the last takes what is little more, and is left out if there is more."""

@@ -8,8 +8,8 @@ import pytest
 from windopt.solving.exact.clock import Clock
 from windopt.solving.exact.pool import Pool, Tree
 from windopt.solving.exact.rank_one_rows import Rows
+from windopt.solving.exact.selection import Selection
 from windopt.solving.exact.subset_row_cuts import packed
-from windopt.solving.exact.tightening import Selection
 
 
 def pool(members, cost, station):
