@@ -31,8 +31,9 @@ NARROWER = 0.75
 """What cuts must make of a gap whose flights were too many, before they are listed again."""
 ROUNDS = 2
 """Rounds of cuts between two lists, at most."""
-THOROUGH = 2
-"""Times the first local search to search again, and more each time flights are too many."""
+THOROUGH = 3
+"""Times the first local search to search again, and more each time flights are too many; every
+second time it begins anew."""
 SOURCE = "column generation"
 
 
@@ -124,18 +125,23 @@ def _prove(search: Search, memory: float, seed: int) -> None:
     for attempt in count(1):
         if closing.close(int(effort), in_parts=attempt > 1):
             return
-        improve(search, seed + 2 + attempt, THOROUGH * attempt, rounded)
-        _narrow(relaxation, NARROWER * relaxation.gap)
+        anew = attempt % 2 == 0
+        improve(search, seed + 2 + attempt, THOROUGH * attempt, None if anew else rounded)
+        _narrow(closing, int(effort))
         rounded = relaxation.rounded()
         effort = min(MORE * effort, memory)  # a half flight takes more than a byte
 
 
-def _narrow(relaxation: Relaxation, gap: float) -> None:
-    """Cut until the relaxation leaves no more than ``gap``, cuts do not help, or often enough."""
+def _narrow(closing: Closing, effort: int) -> None:
+    """Cut until much less of the gap is left, cuts do not help, or often enough."""
+    relaxation = closing.relaxation
+    enough = NARROWER * relaxation.gap
     for _ in range(ROUNDS):
-        if relaxation.gap <= gap or not relaxation.cut():
+        if relaxation.gap <= enough or not relaxation.cut():
             return
         relaxation.round_flights()
+        if not closing.fix(effort):
+            return
 
 
 def _result(search: Search, stopped: Status, lacking: str) -> Result[tuple[Route, ...]]:

@@ -15,6 +15,7 @@ from windopt.solving.exact.local_search import improve
 from windopt.solving.exact.master import Duals
 from windopt.solving.exact.network import Floats
 from windopt.solving.exact.pool import Pool, reduced_costs
+from windopt.solving.exact.pricing import MOST_LABELS
 from windopt.solving.exact.rank_one_rows import Rows
 from windopt.solving.exact.relaxation import Relaxation
 from windopt.solving.exact.search import ProofError, Search
@@ -23,6 +24,8 @@ from windopt.solving.exact.tightening import tighten
 FIRST_PART, LARGER, SMALLER = 0.1, 1.5, 0.5
 """Part of the gap to begin with where the whole is too much, by what it grows, and by what it
 shrinks where even the first is too much."""
+AGAIN = 4
+"""Times as many labels to allow before legs that could not be fixed are tried again."""
 THOROUGH = 8
 """Times the first local search to search again where many flights are left to choose among."""
 
@@ -40,8 +43,8 @@ class Closing:
     ----------
     fixing
         The last that labels were not too many for; it stays true as the relaxation goes on.
-    tried
-        The duals for which legs were fixed last, or could not be.
+    tried, most
+        The duals for which legs were fixed last, or could not be, and the labels allowed.
     known
         Duals and rows of the last list of flights, with which the next begins.
     part
@@ -52,6 +55,7 @@ class Closing:
     seed: int
     fixing: Fixing | None = None
     tried: Duals | None = None
+    most: int = 0
     known: tuple[Duals, Rows] | None = None
     part: float = FIRST_PART
 
@@ -66,7 +70,8 @@ class Closing:
         Parameters
         ----------
         effort
-            Half flights to hold at most, for one side of one station; memory may allow fewer.
+            Labels and half flights of one side of one station to hold at most; memory may allow
+            fewer.
         in_parts
             Whether to close parts of the gap where the whole is too much.
 
@@ -74,16 +79,36 @@ class Closing:
         -------
         Whether the gap is closed.
         """
-        search = self.search
-        if search.closed:
+        if self.search.closed:
             return True
-        if self.relaxation.duals is not self.tried:
-            self.tried = self.relaxation.duals
-            fixing = self.relaxation.fix_arcs()
-            self.fixing = fixing or self.fixing
-            if fixing and self._search_within(search.ceiling - fixing.value, fixing, effort):
-                return True
-        return bool(in_parts and self.fixing and self._close_parts(self.fixing, effort))
+        fixed = self.fix(effort)
+        if self.fixing is None:
+            return False
+        gap = self.search.ceiling - self.fixing.value
+        if fixed and self._search_within(gap, self.fixing, effort):
+            return True
+        return in_parts and self._close_parts(self.fixing, effort)
+
+    def fix(self, most: int) -> bool:
+        """Fix legs within the gap, and tell whether labels are not too many to tell which.
+
+        Cuts do not go on where they make them too many: only what is fixed can be listed.
+
+        Parameters
+        ----------
+        most
+            Labels of one side of one station that know of cuts to make at most, if memory allows
+            as many.
+        """
+        relaxation, duals = self.relaxation, self.relaxation.duals
+        fixed = self.fixing is not None and self.fixing.duals is duals
+        if duals is not self.tried or (not fixed and most >= AGAIN * self.most):
+            self.tried, self.most = duals, most
+            cuts = len(relaxation.master.cuts)
+            fixing = relaxation.fix_arcs(most=most if cuts else MOST_LABELS)
+            self.fixing, fixed = fixing or self.fixing, fixing is not None
+            relaxation.crowded |= not fixed and cuts > 0
+        return fixed
 
     def _close_parts(self, fixing: Fixing, effort: int) -> bool:
         """Close ever larger parts of the gap, and tell whether that came to the whole."""

@@ -10,7 +10,7 @@ from windopt.solving.exact.fixing import MARGIN, Fixing
 from windopt.solving.exact.master import Duals, Master
 from windopt.solving.exact.network import SLACK, Floats
 from windopt.solving.exact.ng_neighbourhoods import nearest
-from windopt.solving.exact.pricing import TOLERANCE, LabelsOverflow, Pricer
+from windopt.solving.exact.pricing import MOST_LABELS, TOLERANCE, LabelsOverflow, Pricer
 from windopt.solving.exact.search import Flight, Search, alone
 from windopt.solving.exact.subset_row_cuts import separate
 
@@ -26,8 +26,7 @@ MOST_COLUMNS, KEPT_COLUMNS = 6000, 3000
 ROUNDING = 1e-6
 """A number of flights this much above a whole one is that."""
 WORTH = 300_000
-"""Labels of one side of one station that cuts and fixed legs are worth; comparing more takes
-longer than listing flights."""
+"""Labels of one side of one station that cuts are worth; listing flights is quicker from there."""
 LABELS_SHARE = 0.2
 """Share of the memory that labels may take; those that fixed the legs are held as well."""
 HELPFUL = 0.02
@@ -224,13 +223,15 @@ class Relaxation:
         self.pricer = pricer
         return gap - self.gap >= HELPFUL * gap
 
-    def fix_arcs(self, ceiling: float | None = None) -> Fixing | None:
+    def fix_arcs(self, ceiling: float | None = None, most: int = MOST_LABELS) -> Fixing | None:
         """Drop the legs that no better plan flies.
 
         Parameters
         ----------
         ceiling
             What better plans keep below; by default that of the search.
+        most
+            Labels of one side of one station to make at most, if memory allows as many.
 
         Returns
         -------
@@ -239,11 +240,9 @@ class Relaxation:
         gap = self.gap if ceiling is None else ceiling - self.value
         cuts, duals = self.master.cuts, self.duals
         prices = cuts.prices(duals.pi, duals.penalty)
-        pricer = replace(self.pricer, most=WORTH) if prices.penalty.any() else self.pricer
-        sides = pricer.sides(prices)
+        sides = replace(self.pricer, most=most).sides(prices)
         found = useful_arcs(sides, self.pricer.loose(prices), duals.toll + gap + MARGIN)
         if found is None:
-            self.crowded = self.crowded or bool(prices.penalty.any())
             return None
         fixing = Fixing(self.value, duals, cuts, prices, sides.memory, *found)
         networks = fixing.useful(self.pricer.networks, gap)
