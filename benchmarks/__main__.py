@@ -1,6 +1,7 @@
 """Measure methods on instances, and make tables, pictures and pages of what was measured."""
 
 import argparse
+import os
 import shlex
 import sys
 from fnmatch import fnmatch
@@ -9,6 +10,7 @@ from pathlib import Path
 from joblib import cpu_count
 
 from benchmarks.case import Case
+from benchmarks.processor import EACH
 from benchmarks.records import read_lines
 from benchmarks.registry import PROBLEMS, SETS, problem
 from benchmarks.runner import run
@@ -43,6 +45,7 @@ def _parser() -> argparse.ArgumentParser:
     add("--time-limit", type=float, help="of each case [s]; each set has its own")
     add("--seed", type=int, nargs="+", default=[0])
     add("--jobs", type=int, default=cores, help="cases at a time here (default: one a core)")
+    add("--processors", type=int, default=1, help="for each case here (default: %(default)s)")
     add("--scheduler", default="", metavar="ADDRESS", help="of a dask cluster to run on instead")
     add("--resume", action="store_true", help="go on where an earlier run ended")
     add("--out", type=Path, default=MEASURED, help="folder of lines (default: %(default)s)")
@@ -78,6 +81,7 @@ def _report(chosen: argparse.Namespace) -> None:
 
 def _run(chosen: argparse.Namespace) -> None:
     command = shlex.join(["python", "-m", "benchmarks", *sys.argv[1:]])
+    os.environ[EACH] = str(chosen.processors)
     for name in PROBLEMS if chosen.problem == "all" else [chosen.problem]:
         lines = chosen.out / f"{name}.jsonl"
         if lines.exists() and not chosen.resume:

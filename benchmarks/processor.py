@@ -1,4 +1,4 @@
-"""One processor for each worker, so that no method gains by threads what another loses."""
+"""Processors for each worker alone, so that no method gains by threads what another loses."""
 
 import os
 import resource
@@ -6,23 +6,34 @@ import tempfile
 from pathlib import Path
 from typing import IO
 
+EACH = "WINDOPT_BENCHMARK_PROCESSORS"
+"""Names the variable that tells a worker how many processors to claim."""
+
 _held: list[IO[str]] = []  # A lock lasts for as long as its file is open.
 
 
-def claim_processor() -> int | None:
-    """Bind this process to a processor that no other worker of this machine holds.
+def claim_processors(most: int = 1) -> set[int]:
+    """Bind this process to processors that no other worker of this machine holds.
+
+    Parameters
+    ----------
+    most
+        How many to claim at most.
 
     Returns
     -------
-    Its number, or ``None`` where all are held or the system cannot tell; then nothing is bound.
+    Their numbers, none where all are held or the system cannot tell; then nothing is bound.
     """
     if not hasattr(os, "sched_setaffinity"):
-        return None
+        return set()
     import fcntl
 
     folder = Path(tempfile.gettempdir()) / f"windopt-processors-{os.getuid()}"
     folder.mkdir(exist_ok=True)
+    claimed: set[int] = set()
     for number in sorted(os.sched_getaffinity(0)):
+        if len(claimed) == most:
+            break
         file = (folder / str(number)).open("w", encoding="utf-8")
         try:
             fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
@@ -30,9 +41,10 @@ def claim_processor() -> int | None:
             file.close()
             continue
         _held.append(file)
-        os.sched_setaffinity(0, {number})
-        return number
-    return None
+        claimed.add(number)
+    if claimed:
+        os.sched_setaffinity(0, claimed)
+    return claimed
 
 
 def processor_time() -> float:

@@ -1,6 +1,6 @@
 """The process that runs cases: one on each line of the standard input, an answer on each line out.
 
-It is started and watched by :mod:`benchmarks.watch`, has one processor to itself where one is
+It is started and watched by :mod:`benchmarks.watch`, has processors to itself where they are
 free, and ends at once when its input does, whatever it is at. What a solver prints goes to the
 standard error, so that it cannot be taken for an answer. A method runs once on something tiny
 before it is measured.
@@ -15,7 +15,7 @@ from threading import Thread
 from typing import TextIO
 
 from benchmarks.case import Case, Record
-from benchmarks.processor import claim_processor
+from benchmarks.processor import EACH, claim_processors
 from benchmarks.registry import problem
 
 
@@ -50,7 +50,7 @@ def listen(lines: "SimpleQueue[str]") -> None:
 
 def main() -> None:
     """Serve the standard input."""
-    claim_processor()
+    claim_processors(int(os.environ.get(EACH, 1)))
     lines: SimpleQueue[str] = SimpleQueue()
     with os.fdopen(os.dup(sys.stdout.fileno()), "w", encoding="utf-8") as answers:
         os.dup2(sys.stderr.fileno(), sys.stdout.fileno())

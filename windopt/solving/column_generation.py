@@ -29,6 +29,8 @@ EFFORT, MORE = 300_000, 1.5
 """Half flights that the first attempt to list all flights may hold, and the growth of that."""
 NARROWER = 0.75
 """What cuts must make of a gap whose flights were too many, before they are listed again."""
+MUCH_NARROWER = 0.85
+"""What cuts must make of a gap that was closed in parts, before the next is."""
 ROUNDS = 2
 """Rounds of cuts between two lists, at most."""
 THOROUGH = 3
@@ -122,26 +124,32 @@ def _prove(search: Search, memory: float, seed: int) -> None:
     rounded = relaxation.rounded()
     improve(search, seed + 1, start=rounded)
     closing, effort = Closing(relaxation, seed + 2), float(EFFORT)
+    narrowing, listed = True, relaxation.gap
     for attempt in count(1):
-        if closing.close(int(effort), in_parts=attempt > 1):
+        in_parts = attempt > 1 and (not narrowing or relaxation.gap <= MUCH_NARROWER * listed)
+        listed = relaxation.gap if in_parts else listed
+        if closing.close(int(effort), in_parts=in_parts):
             return
         anew = attempt % 2 == 0
         improve(search, seed + 2 + attempt, THOROUGH * attempt, None if anew else rounded)
-        _narrow(closing, int(effort))
+        narrowing = _narrow(closing, int(effort))
         rounded = relaxation.rounded()
         effort = min(MORE * effort, memory)  # a half flight takes more than a byte
 
 
-def _narrow(closing: Closing, effort: int) -> None:
-    """Cut until much less of the gap is left, cuts do not help, or often enough."""
+def _narrow(closing: Closing, effort: int) -> bool:
+    """Cut until much less of the gap is left, or often enough; tell whether cuts help."""
     relaxation = closing.relaxation
     enough = NARROWER * relaxation.gap
     for _ in range(ROUNDS):
-        if relaxation.gap <= enough or not relaxation.cut():
-            return
+        if relaxation.gap <= enough:
+            break
+        if not relaxation.cut(effort):
+            return False
         relaxation.round_flights()
         if not closing.fix(effort):
-            return
+            return False
+    return True
 
 
 def _result(search: Search, stopped: Status, lacking: str) -> Result[tuple[Route, ...]]:

@@ -14,10 +14,10 @@ from windopt.solving.exact.enumeration import enumerate_flights
 from windopt.solving.exact.master import Duals
 from windopt.solving.exact.network import SLACK
 from windopt.solving.exact.ng_neighbourhoods import Neighbourhoods
-from windopt.solving.exact.pricing import Pricer
+from windopt.solving.exact.pricing import MOST_LABELS, Pricer
 from windopt.solving.exact.relaxation import Relaxation
 from windopt.solving.exact.search import Search, alone
-from windopt.solving.exact.subset_row_cuts import Cuts
+from windopt.solving.exact.subset_row_cuts import Cuts, memory_along
 from windopt.solving.exact.waiting_labels import Span, empty_labels
 
 
@@ -48,7 +48,15 @@ def flights(networks):
     return found
 
 
-def reduced_cost(duals, cuts, flight):
+def reduced_costs(duals, cuts, flights):
+    """Return the reduced costs of flights, with cuts counted as far as they remember."""
+    paths = [path for _, path, _ in flights]
+    earned = [duals.pi[list(path)].sum() + duals.toll[d] for d, path, _ in flights]
+    paid = duals.penalty @ cuts.coefficients(paths)
+    return np.array([time for *_, time in flights]) - earned + paid
+
+
+def reduced_cost_in_full(duals, cuts, flight):
     d, path, time = flight
     pairs = np.isin(cuts.triples, path).sum(axis=1) >= 2
     return time - duals.pi[list(path)].sum() - duals.toll[d] + duals.penalty[pairs].sum()
@@ -74,7 +82,9 @@ def setting(request):
         )
         triples = np.array([sorted(rng.choice(search.n, 3, replace=False)) for _ in range(3)])
         triples = np.unique(triples, axis=0)
-        cuts = Cuts(triples, np.ones((len(triples), search.n), bool))
+        legs = (len(triples), search.n, search.n)
+        memory = rng.random(legs) < 0.6 if request.param % 2 else np.ones(legs, bool)
+        cuts = Cuts(triples, memory)
         relaxation.master.rebuild(relaxation.master.columns, cuts)
         yield search, relaxation, random_duals(rng, relaxation, len(triples))
 
@@ -108,12 +118,13 @@ def test_cuts_that_overflow_are_taken_back(setting, monkeypatch):
         return 100_000 if len(relaxation.master.cuts) == held else 1
 
     held = len(relaxation.master.cuts)
+    triples = np.array([[0, 1, k] for k in range(2, 7)])
     monkeypatch.setattr(Pricer, "capacity", overflow)
     monkeypatch.setattr(
         "windopt.solving.exact.relaxation.separate",
-        lambda cuts, flown: Cuts(np.array([[0, 1, k] for k in range(2, 7)]), np.ones((5, 7), bool)),
+        lambda cuts, flown: Cuts(triples, np.ones((5, 7, 7), bool)),
     )
-    assert not relaxation.cut()
+    assert not relaxation.cut(MOST_LABELS)
     assert len(relaxation.master.cuts) == held
     assert relaxation.value == pytest.approx(before, abs=1e-3)
 
@@ -123,7 +134,7 @@ def test_room_for_labels_is_made_within_the_memory_given(setting, memory):
     _, relaxation, _ = setting
     pricer = replace(relaxation.pricer, memory=memory)
     prices = relaxation.master.cuts.prices(np.zeros(7), np.zeros(len(relaxation.master.cuts)))
-    found, waiting = empty_labels(pricer.capacity(prices), prices.memory.shape, Span(1.0, 0.5, 0.1))
+    found, waiting = empty_labels(pricer.capacity(prices), prices.inside.shape, Span(1.0, 0.5, 0.1))
     kept = sum(column.nbytes for column in found)
     at_work = kept + sum(column.nbytes for column in waiting)
     sides = 2 * len(pricer.networks)
@@ -133,12 +144,11 @@ def test_room_for_labels_is_made_within_the_memory_given(setting, memory):
 def test_the_least_reduced_cost_is_found(setting):
     search, relaxation, duals = setting
     priced = relaxation.pricer.price(relaxation.master, duals, exact=True)
-    costs = [
-        (flight[0], reduced_cost(duals, relaxation.master.cuts, flight))
-        for flight in flights(search.networks)
-    ]
+    all_flights = flights(search.networks)
+    costs = reduced_costs(duals, relaxation.master.cuts, all_flights)
+    stations = np.array([d for d, *_ in all_flights])
     for d in range(2):
-        least = min(cost for station, cost in costs if station == d)
+        least = costs[stations == d].min()
         assert priced.least[d] == pytest.approx(min(0.0, least), abs=1e-5)
 
 
@@ -172,10 +182,10 @@ def test_no_flight_ends_for_less_than_its_bounds(setting):
 def test_flights_found_are_as_cheap_as_they_claim(setting):
     search, relaxation, duals = setting
     priced = relaxation.pricer.price(relaxation.master, duals, exact=False, keep=2)
+    assert (reduced_costs(duals, relaxation.master.cuts, priced.columns) < 0).all()
     for d, path, time in priced.columns:
         assert time == pytest.approx(search.networks[d].duration(path))
         assert time <= search.networks[d].t_max + 1e-6
-        assert reduced_cost(duals, relaxation.master.cuts, (d, path, time)) < 0
 
 
 def test_all_flights_within_the_gap_are_listed_and_no_others(setting):
@@ -187,7 +197,7 @@ def test_all_flights_within_the_gap_are_listed_and_no_others(setting):
     pool = enumerate_flights(networks, fixing, gap, 100_000, 1e9, search.clock)
     wanted = {}
     for flight in flights(search.networks):
-        if reduced_cost(relaxation.duals, relaxation.master.cuts, flight) <= gap:
+        if reduced_cost_in_full(relaxation.duals, relaxation.master.cuts, flight) <= gap:
             key = frozenset(flight[1])
             wanted[key] = min(wanted.get(key, inf), flight[2])
     listed = {frozenset(pool.path(r)): pool.cost[r] for r in range(len(pool))}
@@ -202,14 +212,20 @@ def test_all_flights_within_the_gap_are_listed_and_no_others(setting):
 def test_a_cut_that_remembers_everything_counts_every_second_visit():
     rng = np.random.default_rng(0)
     triples = np.array([[0, 1, 2], [1, 4, 6]])
-    cuts = Cuts(triples, np.ones((2, 8), bool))
+    cuts = Cuts(triples, np.ones((2, 8, 8), bool))
     paths = [tuple(rng.integers(0, 8, size).tolist()) for size in (1, 3, 5, 9)]
     visits = np.array([[np.isin(path, triple).sum() for path in paths] for triple in triples])
     assert (cuts.coefficients(paths) == visits // 2).all()
 
 
-def test_a_cut_forgets_a_visit_outside_its_memory():
-    memory = np.zeros((1, 5), bool)
-    memory[0, [0, 1, 2]] = True
+def test_a_cut_forgets_a_visit_on_a_leg_outside_its_memory():
+    memory = np.zeros((1, 5, 5), bool)
+    memory[0, [0, 1, 3], [1, 2, 0]] = True
     cuts = Cuts(np.array([[0, 1, 2]]), memory)
-    assert cuts.coefficients([(0, 1), (0, 3, 1), (0, 3, 1, 2)]).tolist() == [[1.0, 0.0, 1.0]]
+    paths = [(0, 1), (0, 3, 1), (0, 3, 1, 2), (1, 0), (0, 1, 2, 0, 1)]
+    assert cuts.coefficients(paths).tolist() == [[1.0, 0.0, 1.0, 0.0, 2.0]]
+
+
+def test_the_memory_of_a_cut_holds_the_legs_between_two_visits():
+    memory = memory_along((0, 1, 2), [(3, 0, 4, 1, 3, 2), (5, 2, 5)], 6)
+    assert np.argwhere(memory).tolist() == [[0, 4], [4, 1]]

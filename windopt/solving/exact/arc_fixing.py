@@ -23,7 +23,7 @@ from windopt.solving.exact.completions import (
     told_by,
 )
 from windopt.solving.exact.joins import cheapest, partner
-from windopt.solving.exact.labels import EPS, Labels, Memory, carried
+from windopt.solving.exact.labels import EPS, Labels, Memory, Prices, carried, recalled
 from windopt.solving.exact.network import SLACK, Floats, Network, Side
 
 
@@ -33,18 +33,17 @@ def _through(
     behind: Labels,
     side: Side,
     memory: Memory,
-    penalty: Floats,
+    prices: Prices,
     t_max: float,
     rest: Floats,
     step: float,
-    pi: Floats,
     limit: float,
     stop: NDArray[np.uint8],
 ) -> Floats:
     """Return the least cost of a flight over each leg, ``inf`` beyond ``limit``."""
     n = len(side.first)
     cost = np.full((n, n), np.inf)
-    least = cheapest(behind)
+    least, S = cheapest(behind), np.empty((1, ahead.S.shape[1]), np.uint64)
     for a in range(len(ahead.T)):
         if stop[0] != 0:
             break
@@ -54,12 +53,13 @@ def _through(
             so_far = ahead.C[a] + side.legs[i, j]
             left = t_max - ahead.T[a] - side.legs[i, j] + SLACK
             below = min(cost[i, j], limit) - so_far + EPS
-            if left < 0.0 or rest[j, int(left / step)] - pi[j] >= below:
+            if left < 0.0 or rest[j, int(left / step)] - prices.pi[j] >= below:
                 continue
             if ahead.V[a] & memory.bit[i, j] != NONE:
                 continue
             V = carried(ahead.V[a], i, j, memory)
-            best, b = partner(behind, least, j, V, ahead.S, a, left, below, -np.inf, penalty)
+            recalled(ahead.S, a, prices, i, j, S)
+            best, b = partner(behind, least, j, V, S, 0, left, below, -np.inf, prices.penalty)
             if b >= 0:
                 cost[i, j] = so_far + best
     return cost
@@ -101,8 +101,7 @@ def useful_arcs(
 
 def _least_through(given: BothSides, network: Network, rest: Completions, limit: float) -> Floats:
     """Return the least cost of a flight of one station over each leg, shape ``(n, n)``."""
-    prices = given.prices
     return _through(
-        rest.ahead, rest.behind, network.forward, given.memory, prices.penalty, network.t_max,
-        rest.forward, rest.step, prices.pi, limit, given.clock.stop,
+        rest.ahead, rest.behind, network.forward, given.memory, given.prices, network.t_max,
+        rest.forward, rest.step, limit, given.clock.stop,
     )  # fmt: skip

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from windopt.solving.exact.clock import Clock
 from windopt.solving.exact.labelling import labels
-from windopt.solving.exact.labels import UNBOUNDED, Bound, Labels, Memory, Prices
+from windopt.solving.exact.labels import UNBOUNDED, Bound, Labels, Memory, Prices, turned
 from windopt.solving.exact.network import Network, Side
 from windopt.solving.exact.waiting_labels import Span
 
@@ -54,16 +54,17 @@ class BothSides:
             As of :func:`~windopt.solving.exact.labelling.labels`.
         """
 
-        def made(side: Side, network: Network, bound: Bound) -> tuple[Labels, bool]:
+        def made(side: Side, prices: Prices, network: Network, bound: Bound) -> tuple[Labels, bool]:
             span = Span(network.t_max, network.t_max if whole else network.half, bucket(network))
             return labels(
-                side, self.prices, self.memory, span, exact, keep or ALL, bound,
+                side, prices, self.memory, span, exact, keep or ALL, bound,
                 self.capacity, self.clock.stop,
             )  # fmt: skip
 
         sides = [side for each in self.networks for side in (each.forward, each.backward)]
+        prices = [self.prices, turned(self.prices)] * len(self.networks)
         twice = [network for network in self.networks for _ in range(2)]
-        found = self.clock.map(made, sides, twice, bounds)
+        found = self.clock.map(made, sides, prices, twice, bounds)
         return [each for each, _ in found], all(complete for _, complete in found)
 
 

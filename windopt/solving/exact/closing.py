@@ -7,6 +7,7 @@ a larger delta begins with.
 """
 
 from dataclasses import dataclass
+from math import inf
 
 from windopt.solving.exact.branching import MOST, branch
 from windopt.solving.exact.enumeration import enumerate_flights
@@ -24,6 +25,8 @@ from windopt.solving.exact.tightening import tighten
 FIRST_PART, LARGER, SMALLER = 0.1, 1.5, 0.5
 """Part of the gap to begin with where the whole is too much, by what it grows, and by what it
 shrinks where even the first is too much."""
+WIDER = 1.5
+"""Times a gap that was too wide to list which is not even tried."""
 AGAIN = 4
 """Times as many labels to allow before legs that could not be fixed are tried again."""
 THOROUGH = 8
@@ -49,6 +52,8 @@ class Closing:
         Duals and rows of the last list of flights, with which the next begins.
     part
         Part of the gap to begin with where the whole is too much.
+    too_wide
+        The reduced cost up to which flights were too many last.
     """
 
     relaxation: Relaxation
@@ -58,6 +63,7 @@ class Closing:
     most: int = 0
     known: tuple[Duals, Rows] | None = None
     part: float = FIRST_PART
+    too_wide: float = inf
 
     @property
     def search(self) -> Search:
@@ -85,7 +91,8 @@ class Closing:
         if self.fixing is None:
             return False
         gap = self.search.ceiling - self.fixing.value
-        if fixed and self._search_within(gap, self.fixing, effort):
+        hopeless = gap > WIDER * self.too_wide
+        if fixed and not hopeless and self._search_within(gap, self.fixing, effort):
             return True
         return in_parts and self._close_parts(self.fixing, effort)
 
@@ -107,21 +114,29 @@ class Closing:
             cuts = len(relaxation.master.cuts)
             fixing = relaxation.fix_arcs(most=most if cuts else MOST_LABELS)
             self.fixing, fixed = fixing or self.fixing, fixing is not None
-            relaxation.crowded |= not fixed and cuts > 0
+            if cuts and not fixed:
+                relaxation.crowded = most
         return fixed
 
     def _close_parts(self, fixing: Fixing, effort: int) -> bool:
-        """Close ever larger parts of the gap, and tell whether that came to the whole."""
-        search, part = self.search, self.part
+        """Close ever larger parts of the gap, and tell whether that came to the whole.
+
+        Where one is too much after others were not, one between the two is the last.
+        """
+        search, part, halved = self.search, self.part, False
         while True:
             proved = max(0.0, search.bound - fixing.value)
             delta = proved + part * (search.ceiling - search.bound)
-            if not self._search_within(delta, fixing, effort):
-                self.part *= SMALLER if part == self.part else 1.0
-                return False
-            if search.closed or delta >= search.ceiling - fixing.value:
+            fits = self._search_within(delta, fixing, effort)
+            if search.closed or (fits and delta >= search.ceiling - fixing.value):
                 return True
-            part = min(1.0, LARGER * part)
+            if not fits and part == self.part:
+                self.part *= SMALLER
+                return False
+            if halved:
+                return False
+            halved = not fits
+            part = min(1.0, LARGER * part) if fits else SMALLER * part
 
     def _search_within(self, delta: float, fixing: Fixing, effort: int) -> bool:
         """Look for a plan of flights of a reduced cost up to ``delta``, unless they are too many.
@@ -137,6 +152,7 @@ class Closing:
             networks, fixing, delta, effort, relaxation.memory, search.clock, apart=search.limited
         )
         if pool is None:
+            self.too_wide = delta
             search.note("too many flights within %.3f of %.3f", delta, fixing.value)
             return False
         search.note("%d flights within %.3f of %.3f", len(pool), delta, fixing.value)

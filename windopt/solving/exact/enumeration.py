@@ -16,7 +16,7 @@ from windopt.solving.exact.fixing import Fixing
 from windopt.solving.exact.half_flights import Halves, Interest, half_flights
 from windopt.solving.exact.hashing import empty_slots
 from windopt.solving.exact.joined_halves import Sets, Terms, join_halves
-from windopt.solving.exact.labels import Labels, Memory, Prices
+from windopt.solving.exact.labels import Labels, Memory, Prices, turned
 from windopt.solving.exact.network import Floats, Network, Side
 from windopt.solving.exact.pool import Pool, Tree
 
@@ -51,7 +51,7 @@ def enumerate_flights(
         Whether to keep a flight over each set for each station, not the fastest only.
     """
     n, prices = len(networks[0].out), fixing.prices
-    sets, half_capacity = _empty_sets(n, prices.memory.shape[1], effort, memory)
+    sets, half_capacity = _empty_sets(n, prices.inside.shape[1], effort, memory)
     slots, count = empty_slots(1 << 16), 0
     trees = []
     for d, (network, rest) in enumerate(zip(networks, fixing.completions, strict=True)):
@@ -64,7 +64,7 @@ def enumerate_flights(
         order, groups = _grouped(backward, n, terms.width)
         [(slots, count, whole)] = clock.map(
             join_halves,
-            [forward], [backward], [order], [groups], [network.forward], [prices.penalty],
+            [forward], [backward], [order], [groups], [network.forward], [prices],
             [terms], [sets], [slots], [count], [clock.stop],
         )  # fmt: skip
         if not whole:
@@ -105,13 +105,15 @@ def _both_halves(
 ) -> tuple[Halves, Halves] | None:
     """Return the forward and backward half flights, None where there are too many."""
 
-    def halves(side: Side, table: Floats, ends: Labels) -> tuple[Halves, bool]:
+    def halves(side: Side, prices: Prices, table: Floats, ends: Labels) -> tuple[Halves, bool]:
         interest = Interest(network.t_max, network.half, limit, rest.step)
         return half_flights(side, prices, memory, interest, table, ends, capacity, clock.stop)
 
     sides, tables = (network.forward, network.backward), (rest.forward, rest.backward)
     ends = (rest.behind, rest.ahead)
-    (forward, whole), (backward, whole_too) = clock.map(halves, sides, tables, ends)
+    (forward, whole), (backward, whole_too) = clock.map(
+        halves, sides, (prices, turned(prices)), tables, ends
+    )
     return (forward, backward) if whole and whole_too else None
 
 

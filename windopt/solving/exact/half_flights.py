@@ -13,7 +13,16 @@ from windopt.solving.exact.bits import NONE, ONE, bit
 from windopt.solving.exact.compiled import compiled, inlined
 from windopt.solving.exact.hashing import empty_slots, row_hash, same_rows
 from windopt.solving.exact.joins import cheapest, partner
-from windopt.solving.exact.labels import EPS, Ints, Labels, Memory, Prices, Words, price_of
+from windopt.solving.exact.labels import (
+    EPS,
+    Ints,
+    Labels,
+    Memory,
+    Prices,
+    Words,
+    price_of,
+    recalled,
+)
 from windopt.solving.exact.network import SLACK, Floats, Side
 from windopt.solving.exact.ng_neighbourhoods import WIDEST
 
@@ -161,6 +170,7 @@ def _extend(
     rest: Floats,
     ends: Labels,
     least: Floats,
+    kept: Words,
     S: Words,
 ) -> tuple[Ints, int, bool]:
     """Fly on from half flight ``current``."""
@@ -173,16 +183,16 @@ def _extend(
         if visited or not _in_time(side, interest, j, t):
             continue
         c = found.C[current] + leg - prices.pi[j]
+        recalled(found.S, current, prices, i, j, kept)
         for word in range(len(S)):
-            kept = prices.memory[j, word] & found.S[current, word]
-            c += price_of(kept & prices.inside[j, word], word, prices.penalty)
-            S[word] = kept ^ prices.inside[j, word]
+            c += price_of(kept[0, word] & prices.inside[j, word], word, prices.penalty)
+            S[word] = kept[0, word] ^ prices.inside[j, word]
         left = interest.t_max - t + SLACK
         if c + rest[j, int(left / interest.step)] > interest.limit:
             continue
         V = _remembered(found.set, current, j, memory)
         below = interest.limit - found.C[current] - leg + EPS
-        _, end = partner(ends, least, j, V, found.S, current, left, below, below, prices.penalty)
+        _, end = partner(ends, least, j, V, kept, 0, left, below, below, prices.penalty)
         if end >= 0:
             slots, count, fitted = _keep(found, slots, count, current, j, t, c, S)
             if not fitted:
@@ -217,15 +227,17 @@ def half_flights(
     -------
     The :class:`Halves`, and whether they are complete.
     """
-    n, words = prices.memory.shape
-    found, S = _empty_halves(capacity, n, words), np.empty(words, np.uint64)
+    n, words = prices.inside.shape
+    found = _empty_halves(capacity, n, words)
+    kept, S = np.empty((1, words), np.uint64), np.empty(words, np.uint64)
     least = cheapest(ends)
     slots, count, complete = _start(found, empty_slots(1 << 16), side, prices, interest, rest)
     current = 0
     while complete and current < count:
         slots, count, complete = _extend(
-            found, slots, count, current, side, prices, memory, interest, rest, ends, least, S
-        )
+            found, slots, count, current, side, prices, memory, interest, rest, ends, least,
+            kept, S,
+        )  # fmt: skip
         complete = complete and stop[0] == 0
         current += 1
     return _in_use(found, count), complete

@@ -13,7 +13,7 @@ from windopt.solving.exact.bits import NONE, ONE, bit
 from windopt.solving.exact.compiled import compiled, inlined
 from windopt.solving.exact.half_flights import Halves
 from windopt.solving.exact.hashing import empty_slots, row_hash, same_rows
-from windopt.solving.exact.labels import Ints, Words, price_of
+from windopt.solving.exact.labels import Ints, Prices, Words, price_of
 from windopt.solving.exact.network import SLACK, Floats, Side
 
 
@@ -148,7 +148,7 @@ def _add_ahead(
 @inlined
 def _add_joined(
     forward: Halves, f: int, backward: Halves, order: NDArray[np.int64], groups: NDArray[np.int64],
-    side: Side, penalty: Floats, terms: Terms, sets: Sets, slots: Ints, count: int,
+    side: Side, prices: Prices, terms: Terms, sets: Sets, slots: Ints, count: int,
 ) -> tuple[Ints, int, bool]:  # fmt: skip
     """Add a forward half with each backward one that goes with it."""
     buckets = (len(groups) - 1) // len(side.first)
@@ -168,8 +168,9 @@ def _add_joined(
                     break
                 if backward.T[b] > left or not _disjoint(forward.set, f, backward.set, b):
                     continue
-                for word in range(len(penalty) // 64):
-                    cost += price_of(forward.S[f, word] & backward.S[b, word], word, penalty)
+                for word in range(forward.S.shape[1]):
+                    both = forward.S[f, word] & backward.S[b, word] & prices.memory[i, j, word]
+                    cost += price_of(both, word, prices.penalty)
                 if cost > terms.limit:
                     continue
                 _union(sets, count, forward.set, f, backward.set, b)
@@ -189,7 +190,7 @@ def join_halves(
     order: NDArray[np.int64],
     groups: NDArray[np.int64],
     side: Side,
-    penalty: Floats,
+    prices: Prices,
     terms: Terms,
     sets: Sets,
     slots: Ints,
@@ -217,6 +218,6 @@ def join_halves(
         slots, count, fitted = _add_ahead(forward, f, side, terms, sets, slots, count)
         if fitted:
             slots, count, fitted = _add_joined(
-                forward, f, backward, order, groups, side, penalty, terms, sets, slots, count
+                forward, f, backward, order, groups, side, prices, terms, sets, slots, count
             )
     return slots, count, fitted

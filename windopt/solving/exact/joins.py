@@ -9,7 +9,16 @@ from numpy.typing import NDArray
 
 from windopt.solving.exact.bits import NONE
 from windopt.solving.exact.compiled import compiled, inlined
-from windopt.solving.exact.labels import Ints, Labels, Memory, Words, carried, price_of
+from windopt.solving.exact.labels import (
+    Ints,
+    Labels,
+    Memory,
+    Prices,
+    Words,
+    carried,
+    price_of,
+    recalled,
+)
 from windopt.solving.exact.network import SLACK, Floats, Side
 
 ALONE = -1
@@ -80,7 +89,7 @@ def partner(
 @inlined
 def _joined(
     forward: Labels, f: int, backward: Labels, least: Floats, side: Side, memory: Memory,
-    penalty: Floats, t_max: float, half: float, limit: float,
+    prices: Prices, S: Words, t_max: float, half: float, limit: float,
 ) -> tuple[float, int]:  # fmt: skip
     """Return the cost of the best flight through label f, and the label it joins."""
     cost, label = limit, ALONE
@@ -97,7 +106,8 @@ def _joined(
         if forward.V[f] & memory.bit[i, j] != NONE:
             continue
         V = carried(forward.V[f], i, j, memory)
-        best, b = partner(backward, least, j, V, forward.S, f, left, below, -np.inf, penalty)
+        recalled(forward.S, f, prices, i, j, S)
+        best, b = partner(backward, least, j, V, S, 0, left, below, -np.inf, prices.penalty)
         if b >= 0:
             cost, label = forward.C[f] + leg + best, b
     return cost, label
@@ -109,7 +119,7 @@ def join(
     backward: Labels,
     side: Side,
     memory: Memory,
-    penalty: Floats,
+    prices: Prices,
     t_max: float,
     half: float,
     limit: float,
@@ -136,11 +146,12 @@ def join(
     least = cheapest(backward)
     cost = np.full(len(forward.T), limit)
     label = np.full(len(forward.T), ALONE, np.int32)
+    S = np.empty((1, forward.S.shape[1]), np.uint64)
     for f in range(len(forward.T)):
         if stop[0] != 0:
             break
         cost[f], label[f] = _joined(
-            forward, f, backward, least, side, memory, penalty, t_max, half, limit
+            forward, f, backward, least, side, memory, prices, S, t_max, half, limit
         )
     return cost, label
 

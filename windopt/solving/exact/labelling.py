@@ -131,7 +131,7 @@ def _extend(
             return False
         c = found.C[a] + side.legs[i, j] - prices.pi[j]
         for word in range(waiting.S.shape[1]):
-            kept = found.S[a, word] & prices.memory[j, word]
+            kept = found.S[a, word] & prices.memory[i, j, word]
             c += price_of(kept & prices.inside[j, word], word, prices.penalty)
             waiting.S[new, word] = kept ^ prices.inside[j, word]
         if t >= bound.after:
@@ -175,7 +175,7 @@ def labels(
     stop
         Set to non-zero by another thread to end the search.
     """
-    found, waiting = empty_labels(capacity, prices.memory.shape, span)
+    found, waiting = empty_labels(capacity, prices.inside.shape, span)
     order = np.empty(len(found.T), np.int32)
     count, layer = 0, -1
     _start(waiting, side, prices, memory, span)

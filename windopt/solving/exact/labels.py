@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from windopt.solving.exact.bits import NONE, ONE, position
-from windopt.solving.exact.compiled import compiled
+from windopt.solving.exact.compiled import compiled, inlined
 from windopt.solving.exact.network import Floats
 
 EPS = 1e-9
@@ -33,15 +33,22 @@ class Prices(NamedTuple):
         Reward of each turbine, shape ``(n,)``.
     penalty
         Price of each active cut, shape ``(64 words,)``, not negative.
-    memory, inside
-        The cuts that are remembered at turbine i, and those whose subset it is in, as bits;
-        shape ``(n, words)``.
+    memory
+        The cuts that are remembered on the leg from turbine i to turbine j, as bits; shape
+        ``(n, n, words)``.
+    inside
+        The cuts whose subset turbine i is in, shape ``(n, words)``.
     """
 
     pi: Floats
     penalty: Floats
     memory: Words
     inside: Words
+
+
+def turned(prices: Prices) -> Prices:
+    """Return the prices of legs flown the other way."""
+    return prices._replace(memory=np.ascontiguousarray(prices.memory.transpose(1, 0, 2)))
 
 
 class Memory(NamedTuple):
@@ -128,6 +135,13 @@ def price_of(bits: np.uint64, word: int, penalty: Floats) -> float:
         bits ^= lowest
         price += penalty[word * 64 + position(lowest)]
     return price
+
+
+@inlined
+def recalled(S: Words, row: int, prices: Prices, i: int, j: int, into: Words) -> None:
+    """Write what of the parities ``S[row]`` is remembered on the leg from i to j into row 0."""
+    for word in range(S.shape[1]):
+        into[0, word] = S[row, word] & prices.memory[i, j, word]
 
 
 def path(node: Ints, parent: Ints, label: int) -> tuple[int, ...]:

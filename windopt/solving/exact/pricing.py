@@ -73,7 +73,7 @@ class Pricer:
         Those of all sides are held, and some sides are at work: each makes room for candidates
         and for a copy.
         """
-        held = LABEL_BYTES + 8 * prices.memory.shape[1]
+        held = LABEL_BYTES + 8 * prices.inside.shape[1]
         sides = 2 * len(self.networks)
         fitting = int(self.memory / (held * (sides + 2 * min(sides, self.clock.threads))))
         return min(fitting, self.most)
@@ -132,7 +132,7 @@ def _best(
     """Return the cheapest flights of station d below ``limit``, and the least cost."""
     network = master.networks[d]
     cost, partner = join(
-        forward, backward, network.forward, memory, prices.penalty, network.t_max, network.half,
+        forward, backward, network.forward, memory, prices, network.t_max, network.half,
         limit, stop,
     )  # fmt: skip
     lone, lone_cost = alone(backward, network.forward, network.t_max, network.half)

@@ -25,8 +25,10 @@ MOST_COLUMNS, KEPT_COLUMNS = 6000, 3000
 """Columns at which the dearest are dropped, and how many are kept."""
 ROUNDING = 1e-6
 """A number of flights this much above a whole one is that."""
-WORTH = 300_000
-"""Labels of one side of one station that cuts are worth; listing flights is quicker from there."""
+CHOICES = 2
+"""Times to look for cuts over the flights at hand, before others are priced."""
+AGAIN = 3
+"""Times as many labels to allow before cuts that made too many are tried again."""
 LABELS_SHARE = 0.2
 """Share of the memory that labels may take; those that fixed the legs are held as well."""
 HELPFUL = 0.02
@@ -44,7 +46,7 @@ class Relaxation:
     duals, least
         Of the last solution, and the least reduced cost that its rounding leaves.
     crowded
-        Whether cuts have made more labels than there is room for, so that no more are added.
+        Labels that were not enough for more cuts; 0 while they are.
     """
 
     search: Search
@@ -54,7 +56,7 @@ class Relaxation:
     pricer: Pricer = field(init=False)
     duals: Duals = field(init=False)
     least: float = field(init=False)
-    crowded: bool = False
+    crowded: int = 0
 
     def __post_init__(self) -> None:
         networks = self.search.networks
@@ -199,29 +201,45 @@ class Relaxation:
         self.counts = counts
         self.master.recount(counts)
 
-    def cut(self) -> bool:
+    def cut(self, most: int) -> bool:
         """Cut off the fractional solution, and tell whether to go on with that.
 
-        Cuts that make more labels than memory allows, or than they are worth, are taken back.
+        Cuts are taken back where they make too many labels.
+
+        Parameters
+        ----------
+        most
+            Labels of one side of one station to make at most, if memory allows as many.
         """
-        if self.search.closed or self.crowded:
+        if self.search.closed or most < AGAIN * self.crowded:
             return False
-        duals = self.master.solve(self.search.clock)  # not priced: others are proved
-        gap, before = self.gap, self.master.cuts
-        cuts = separate(before.kept(duals.penalty > TOLERANCE), self.master.flown())
-        if cuts is None:
+        before, gap = self.master.cuts, self.gap
+        if not self._choose_cuts():
             return False
-        self.master.rebuild(self.master.columns, cuts)
-        pricer, self.pricer = self.pricer, replace(self.pricer, most=WORTH)
+        pricer, self.pricer = self.pricer, replace(self.pricer, most=most)
         try:
             self.solve()
         except LabelsOverflow:
-            self.pricer, self.crowded = pricer, True
+            self.pricer, self.crowded = pricer, most
             self.master.rebuild(self.master.columns, before)
             self.solve()
             return False
         self.pricer = pricer
         return gap - self.gap >= HELPFUL * gap
+
+    def _choose_cuts(self) -> bool:
+        """Put violated cuts into the master, those that matter together to the flights at hand."""
+        master, clock = self.master, self.search.clock
+        for choice in range(CHOICES + 1):
+            duals = master.solve(clock)  # not priced: others are proved
+            cuts = master.cuts.kept(duals.penalty > TOLERANCE)
+            chosen = separate(cuts, master.flown()) if choice < CHOICES else None
+            if chosen is None:
+                break
+            master.rebuild(master.columns, chosen)
+        if choice:
+            master.rebuild(master.columns, cuts)
+        return choice > 0
 
     def fix_arcs(self, ceiling: float | None = None, most: int = MOST_LABELS) -> Fixing | None:
         """Drop the legs that no better plan flies.

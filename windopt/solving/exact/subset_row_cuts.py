@@ -1,7 +1,7 @@
 """Subset-row cuts: of any three turbines, at most one flight may visit two or more.
 
-A cut remembers its visits only in a set of turbines, its memory, and forgets them outside [2];
-the weaker coefficient keeps labels comparable. Flights that visit no turbine twice are priced
+A cut remembers its visits only on some legs, its memory, and forgets them on others [2]; the weaker
+coefficient keeps labels comparable. Flights that visit no turbine twice are priced
 in full: their memory is everywhere.
 
 * [1] Jepsen, Petersen, Spoorendonk & Pisinger (2008), *Operations Research* 56, 497-511.
@@ -10,6 +10,7 @@ in full: their memory is everywhere.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -20,9 +21,11 @@ from windopt.solving.exact.compiled import compiled
 from windopt.solving.exact.labels import Prices, Words
 from windopt.solving.exact.network import Bools, Floats
 
-CUTS, CUTS_EACH = 50, 4
+CUTS, CUTS_EACH = 400, 25
 """Cuts to add at once, and how many of them may share a turbine."""
-LEAST_VIOLATIONS = (0.05, 0.02, 0.005)
+CANDIDATES = 1000
+"""Most violated cuts to choose them from."""
+LEAST_VIOLATIONS = (0.02, 0.005)
 """Violations that are looked for, one after the other."""
 MOST_VIOLATED = 200_000
 """Violated rows to consider."""
@@ -48,7 +51,7 @@ class Cuts:
     triples
         Their turbines, shape ``(m, 3)``, increasing in each row.
     memory
-        Where they remember, shape ``(m, n)``.
+        The legs on which they remember, shape ``(m, n, n)``.
     """
 
     triples: Triples
@@ -60,23 +63,25 @@ class Cuts:
     @classmethod
     def none(cls, n: int) -> "Cuts":
         """No cuts yet, for n turbines."""
-        return cls(np.zeros((0, 3), np.int64), np.zeros((0, n), bool))
+        return cls(np.zeros((0, 3), np.int64), np.zeros((0, n, n), bool))
 
     def kept(self, keep: Bools) -> "Cuts":
         """Return the cuts where ``keep`` holds."""
         return Cuts(self.triples[keep], self.memory[keep])
 
+    @cached_property
     def words(self) -> tuple[Words, Words]:
-        """Return memory and subsets as bits, a row of words per turbine."""
-        inside = np.zeros_like(self.memory)
-        inside[np.arange(len(self))[:, None], self.triples] = True
-        return packed(self.memory.T), packed(inside.T)
+        """Memory and subsets as bits, a row of words per leg and per turbine."""
+        m, n, _ = self.memory.shape
+        inside = np.zeros((m, n), bool)
+        inside[np.arange(m)[:, None], self.triples] = True
+        return packed(self.memory.reshape(m, n * n).T).reshape(n, n, -1), packed(inside.T)
 
     def prices(self, pi: Floats, penalty: Floats) -> Prices:
         """Return what pricing needs of the duals; cuts without a price are left out."""
         active = penalty > 1e-7
-        memory, inside = self.kept(active).words()
-        padded = np.zeros(64 * memory.shape[1])
+        memory, inside = self.kept(active).words
+        padded = np.zeros(64 * inside.shape[1])
         padded[: active.sum()] = penalty[active]
         return Prices(pi, padded, memory, inside)
 
@@ -84,7 +89,7 @@ class Cuts:
         """Return the coefficient of each path in each cut, shape ``(m, paths)``."""
         if not len(self) or not paths:
             return np.zeros((len(self), len(paths)))
-        memory, inside = self.words()
+        memory, inside = self.words
         turbines = np.array([i for path in paths for i in path], np.int64)
         ends = np.cumsum([len(path) for path in paths], dtype=np.int64)
         return _coefficients(turbines, ends, memory, inside, len(self))
@@ -103,14 +108,15 @@ def _coefficients(
     turbines: NDArray[np.int64], ends: NDArray[np.int64], memory: Words, inside: Words, m: int
 ) -> Floats:
     coefficient = np.zeros((m, len(ends)))
-    words = memory.shape[1]
+    words = inside.shape[1]
     start = 0
     for r in range(len(ends)):
         for word in range(words):
             parity = NONE
             for position in range(start, ends[r]):
                 i = turbines[position]
-                parity &= memory[i, word]
+                if position > start:
+                    parity &= memory[turbines[position - 1], i, word]
                 pairs = parity & inside[i, word]
                 parity ^= inside[i, word]
                 cut = word * 64
@@ -174,6 +180,8 @@ def violations(
 def separate(cuts: Cuts, flown: Sequence[tuple[Column, float]]) -> Cuts | None:
     """Return ``cuts`` and those that a fractional plan violates, or None where there are none.
 
+    Those come first that are violated much for the legs they must remember.
+
     Parameters
     ----------
     flown
@@ -185,17 +193,19 @@ def separate(cuts: Cuts, flown: Sequence[tuple[Column, float]]) -> Cuts | None:
     for r, path in enumerate(paths):
         np.add.at(visits[:, r], list(path), 1)
     x = np.array([share for _, share in flown])
+    known = {tuple(t): m for t, m in zip(cuts.triples.tolist(), cuts.memory, strict=True)}
+    nothing = np.zeros((n, n), bool)
     for least in LEAST_VIOLATIONS:
         triples, violation = violations(visits, x, least, MOST_VIOLATED)
-        chosen = triples[spread(triples, violation, n, CUTS, CUTS_EACH)]
-        memories = {tuple(t): m for t, m in zip(cuts.triples.tolist(), cuts.memory, strict=True)}
-        grown = False
-        for triple in chosen:
-            key = tuple(triple.tolist())
-            known = memories.get(key, np.zeros(n, bool))
-            memories[key] = known | memory_along(triple, paths, n)
-            grown = grown or (memories[key] != known).any()
-        if grown:
+        most = np.argsort(-violation, kind="stable")[:CANDIDATES]
+        keys = [tuple(triple) for triple in triples[most].tolist()]
+        needed = [memory_along(key, paths, n) | known.get(key, nothing) for key in keys]
+        legs = np.array([memory.sum() for memory in needed])
+        worth = violation[most] / (triples.shape[1] + legs)
+        memories = dict(known)
+        for row in spread(triples[most], worth, n, CUTS, CUTS_EACH):
+            memories[keys[row]] = needed[row]
+        if any((memory != known.get(key, nothing)).any() for key, memory in memories.items()):
             return Cuts(np.array(list(memories), np.int64), np.array(list(memories.values())))
     return None
 
@@ -213,13 +223,11 @@ def spread(triples: Triples, violation: Floats, n: int, most: int, each: int) ->
     return np.array(chosen, np.intp)
 
 
-def memory_along(triple: NDArray[np.int64], paths: Sequence[Path], n: int) -> Bools:
-    """Return the least memory that gives each of ``paths`` its full coefficient, shape ``(n,)``."""
-    memory = np.zeros(n, bool)
-    memory[triple] = True
-    members = set(triple.tolist())
+def memory_along(triple: Path, paths: Sequence[Path], n: int) -> Bools:
+    """Return the legs to remember on for the full coefficient of each path, shape ``(n, n)``."""
+    memory = np.zeros((n, n), bool)
     for path in paths:
-        visits = [position for position, i in enumerate(path) if i in members]
+        visits = [position for position, i in enumerate(path) if i in triple]
         for first, second in zip(visits[::2], visits[1::2], strict=False):
-            memory[list(path[first : second + 1])] = True
+            memory[path[first:second], path[first + 1 : second + 1]] = True
     return memory

@@ -33,6 +33,8 @@ SATISFIED = 15_000
 """Flights few enough to stop when rows no longer help much."""
 HELPFUL, BARELY = 0.02, 0.003
 """Part of the gap that a round of rows must close, with few flights left and with many."""
+SLOW = 0.2
+"""Part of the gap below which a round of rows of three turbines is followed by larger ones."""
 PRICE = 1e-7
 """Penalty up to which a row does not matter."""
 
@@ -111,10 +113,11 @@ def tighten(
         pool, reduced, inside = pool.kept(keep), reduced[keep], inside[keep]
         value = value if len(pool) else target
         prove(value)
-        stalls = value - before < (HELPFUL if len(pool) <= SATISFIED else BARELY) * gap
+        gain = value - before
+        stalls = gain < (HELPFUL if len(pool) <= SATISFIED else BARELY) * gap
         if len(pool) <= SMALL or _whole(x) or (stalls and larger):
             break
-        larger, before = larger or stalls, value
+        larger, before = larger or gain < SLOW * gap, value
         selection.keep_rows(duals.penalty > PRICE)
         if not _add_violated(selection, x, larger, search.clock):
             break
