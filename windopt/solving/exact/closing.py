@@ -18,7 +18,7 @@ from windopt.solving.exact.network import Floats
 from windopt.solving.exact.pool import Pool, reduced_costs
 from windopt.solving.exact.pricing import MOST_LABELS
 from windopt.solving.exact.rank_one_rows import Rows
-from windopt.solving.exact.relaxation import Relaxation
+from windopt.solving.exact.relaxation import WORTH, Relaxation
 from windopt.solving.exact.search import ProofError, Search
 from windopt.solving.exact.tightening import tighten
 
@@ -105,8 +105,9 @@ class Closing:
         ----------
         most
             Labels of one side of one station that know of cuts to make at most, if memory allows
-            as many.
+            as many and cuts are worth it.
         """
+        most = min(most, WORTH)
         relaxation, duals = self.relaxation, self.relaxation.duals
         fixed = self.fixing is not None and self.fixing.duals is duals
         if duals is not self.tried or (not fixed and most >= AGAIN * self.most):

@@ -27,6 +27,8 @@ ROUNDING = 1e-6
 """A number of flights this much above a whole one is that."""
 CHOICES = 2
 """Times to look for cuts over the flights at hand, before others are priced."""
+WORTH = 600_000
+"""Labels of one side of one station that cuts are worth; listing flights is quicker from there."""
 AGAIN = 3
 """Times as many labels to allow before cuts that made too many are tried again."""
 LABELS_SHARE = 0.2
@@ -209,8 +211,10 @@ class Relaxation:
         Parameters
         ----------
         most
-            Labels of one side of one station to make at most, if memory allows as many.
+            Labels of one side of one station to make at most, if memory allows as many and cuts
+            are worth it.
         """
+        most = min(most, WORTH)
         if self.search.closed or most < AGAIN * self.crowded:
             return False
         before, gap = self.master.cuts, self.gap
