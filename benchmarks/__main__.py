@@ -80,7 +80,7 @@ def _report(chosen: argparse.Namespace) -> None:
 
 
 def _run(chosen: argparse.Namespace) -> None:
-    command = shlex.join(["python", "-m", "benchmarks", *sys.argv[1:]])
+    command = shlex.join(["python", "-m", "benchmarks", *_without_folder(sys.argv[1:])])
     os.environ[EACH] = str(chosen.processors)
     for name in PROBLEMS if chosen.problem == "all" else [chosen.problem]:
         lines = chosen.out / f"{name}.jsonl"
@@ -95,6 +95,18 @@ def _run(chosen: argparse.Namespace) -> None:
             print(shown, end="\n\n")
         failed = sum(record["status"] == "failed" for record in found)
         print(f"{lines}: {len(found)} cases, {failed} failed")
+
+
+def _without_folder(words: list[str]) -> list[str]:
+    """Return a command without where its lines go, which tells of one machine only."""
+    left = iter(words)
+    kept = []
+    for word in left:
+        if word == "--out":
+            next(left, None)
+        elif not word.startswith("--out="):
+            kept.append(word)
+    return kept
 
 
 def _chosen(name: str, chosen: argparse.Namespace) -> list[str]:

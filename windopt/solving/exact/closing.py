@@ -27,8 +27,6 @@ FIRST_PART, LARGER, SMALLER = 0.1, 1.5, 0.5
 shrinks where even the first is too much."""
 WIDER = 1.5
 """Times a gap that was too wide to list which is not even tried."""
-AGAIN = 4
-"""Times as many labels to allow before legs that could not be fixed are tried again."""
 THOROUGH = 8
 """Times the first local search to search again where many flights are left to choose among."""
 
@@ -46,8 +44,8 @@ class Closing:
     ----------
     fixing
         The last that labels were not too many for; it stays true as the relaxation goes on.
-    tried, most
-        The duals for which legs were fixed last, or could not be, and the labels allowed.
+    tried
+        The duals for which legs were fixed last, or could not be.
     known
         Duals and rows of the last list of flights, with which the next begins.
     part
@@ -60,7 +58,6 @@ class Closing:
     seed: int
     fixing: Fixing | None = None
     tried: Duals | None = None
-    most: int = 0
     known: tuple[Duals, Rows] | None = None
     part: float = FIRST_PART
     too_wide: float = inf
@@ -107,16 +104,14 @@ class Closing:
             Labels of one side of one station that know of cuts to make at most, if memory allows
             as many and cuts are worth it.
         """
-        most = min(most, WORTH)
         relaxation, duals = self.relaxation, self.relaxation.duals
         fixed = self.fixing is not None and self.fixing.duals is duals
-        if duals is not self.tried or (not fixed and most >= AGAIN * self.most):
-            self.tried, self.most = duals, most
+        if duals is not self.tried:
+            self.tried = duals
             cuts = len(relaxation.master.cuts)
-            fixing = relaxation.fix_arcs(most=most if cuts else MOST_LABELS)
+            fixing = relaxation.fix_arcs(most=min(most, WORTH) if cuts else MOST_LABELS)
             self.fixing, fixed = fixing or self.fixing, fixing is not None
-            if cuts and not fixed:
-                relaxation.crowded = most
+            relaxation.crowded |= not fixed and cuts > 0
         return fixed
 
     def _close_parts(self, fixing: Fixing, effort: int) -> bool:

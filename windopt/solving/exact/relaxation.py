@@ -29,8 +29,6 @@ CHOICES = 2
 """Times to look for cuts over the flights at hand, before others are priced."""
 WORTH = 600_000
 """Labels of one side of one station that cuts are worth; listing flights is quicker from there."""
-AGAIN = 3
-"""Times as many labels to allow before cuts that made too many are tried again."""
 LABELS_SHARE = 0.2
 """Share of the memory that labels may take; those that fixed the legs are held as well."""
 HELPFUL = 0.02
@@ -48,7 +46,7 @@ class Relaxation:
     duals, least
         Of the last solution, and the least reduced cost that its rounding leaves.
     crowded
-        Labels that were not enough for more cuts; 0 while they are.
+        Whether cuts have made more labels than they are worth, so that no more are added.
     """
 
     search: Search
@@ -58,7 +56,7 @@ class Relaxation:
     pricer: Pricer = field(init=False)
     duals: Duals = field(init=False)
     least: float = field(init=False)
-    crowded: int = 0
+    crowded: bool = False
 
     def __post_init__(self) -> None:
         networks = self.search.networks
@@ -214,17 +212,16 @@ class Relaxation:
             Labels of one side of one station to make at most, if memory allows as many and cuts
             are worth it.
         """
-        most = min(most, WORTH)
-        if self.search.closed or most < AGAIN * self.crowded:
+        if self.search.closed or self.crowded:
             return False
         before, gap = self.master.cuts, self.gap
         if not self._choose_cuts():
             return False
-        pricer, self.pricer = self.pricer, replace(self.pricer, most=most)
+        pricer, self.pricer = self.pricer, replace(self.pricer, most=min(most, WORTH))
         try:
             self.solve()
         except LabelsOverflow:
-            self.pricer, self.crowded = pricer, most
+            self.pricer, self.crowded = pricer, True
             self.master.rebuild(self.master.columns, before)
             self.solve()
             return False

@@ -1,8 +1,8 @@
 """Subset-row cuts: of any three turbines, at most one flight may visit two or more.
 
 A cut remembers its visits only on some legs, its memory, and forgets them on others [2]; the weaker
-coefficient keeps labels comparable. Flights that visit no turbine twice are priced
-in full: their memory is everywhere.
+coefficient keeps labels comparable. Listed flights, which visit no turbine twice, are priced in
+full.
 
 * [1] Jepsen, Petersen, Spoorendonk & Pisinger (2008), *Operations Research* 56, 497-511.
 * [2] Pecin, Pessoa, Poggi & Uchoa (2017), *Mathematical Programming Computation* 9, 61-100.
