@@ -12,17 +12,21 @@ whether turbine i is left out at a price :math:`p_i`.
       & l_0 \le \sum_r x_r \le u_0                                                  \tag{4} \\
       & \sum_r \Bigl\lfloor \tfrac12 \sum_{i \in S} a_{ir} \Bigr\rfloor x_r \le 1
         & |S| = 3                                                                   \tag{5} \\
-      & x_r, y_i \in \{0, 1\}                                                       \tag{6}
+      & \sum_r e_{rS} x_r \ge \kappa(S) & S \text{ needs } \kappa(S) \text{ flights}  \tag{6} \\
+      & x_r, y_i \in \{0, 1\}                                                       \tag{7}
 
 Where flights obey the triangle inequality (2) may read :math:`\ge 1`, and its relaxation is then
 the master of column generation: flights are added as they are found, by
-:meth:`SetPartitioning.add_flights`. (5) follows from (2) and (6) and cuts off fractional plans
-[1]; there are :math:`n^3 / 6` such rows, so they too are added as they are violated.
+:meth:`SetPartitioning.add_flights`. (5) follows from (2) and (7) and cuts off fractional plans
+[1]; there are :math:`n^3 / 6` such rows, so they too are added as they are violated. So are
+the rows (6): flight r enters the set S :math:`e_{rS}` times, and fewer than :math:`\kappa(S)`
+flights cannot serve all of S in time [2].
 
 * [1] Jepsen, Petersen, Spoorendonk & Pisinger (2008), *Operations Research* 56, 497-511.
+* [2] Kohl, Desrosiers, Madsen, Solomon & Soumis (1999), *Transportation Science* 33, 101-116.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import highspy
 import numpy as np
@@ -32,24 +36,33 @@ from scipy.sparse import csc_array, csr_array
 INF = highspy.kHighsInf
 
 
-@dataclass(frozen=True)
+@dataclass
 class SetPartitioning:
     """The program of the flights added so far.
 
     Attributes
     ----------
     model
-        Rows in the order (2), (3), (4), (5).
+        Rows in the order (2), (3), (4), (6), (5); those (6) are added before those (5).
     n, k
         Number of turbines and of stations.
     integer
-        Whether (6) holds, or only x >= 0.
+        Whether (7) holds, or only x >= 0.
+    entries
+        Number of rows (6).
     """
 
     model: highspy.Highs
     n: int
     k: int
     integer: bool
+    entries: int = field(default=0, init=False)
+
+    @property
+    def first_rows(self) -> tuple[int, int, int]:
+        """The first of the rows (3), (6) and (5)."""
+        first = self.n + self.k + 1
+        return self.n, first, first + self.entries
 
     def add_flights(self, c: NDArray[np.float64], a: csc_array) -> None:
         """Add one column per flight.
@@ -64,7 +77,7 @@ class SetPartitioning:
         before, m = self.model.getNumCol(), len(c)
         upper = np.full(m, 1.0 if self.integer else INF)
         starts, rows = a.indptr[:-1].astype(np.int32), a.indices.astype(np.int32)
-        self.model.addCols(m, c, np.zeros(m), upper, a.nnz, starts, rows, a.data)  # (1), (6)
+        self.model.addCols(m, c, np.zeros(m), upper, a.nnz, starts, rows, a.data)  # (1), (7)
         if self.integer:
             kinds = np.full(m, int(highspy.HighsVarType.kInteger), np.uint8)
             columns = np.arange(before, before + m, dtype=np.int32)
@@ -73,9 +86,18 @@ class SetPartitioning:
     def add_subset_rows(self, a: csr_array) -> None:
         """Add rows (5) with the coefficients ``a``, shape ``(m, flights)``."""
         m = a.shape[0]
+        self._add_rows(np.full(m, -INF), np.ones(m), a)  # (5)
+
+    def add_entry_rows(self, a: csr_array, need: NDArray[np.float64]) -> None:
+        """Add rows (6) with the coefficients ``a``, shape ``(m, flights)``, and right sides."""
+        self._add_rows(need, np.full(len(need), INF), a)  # (6)
+        self.entries += len(need)
+
+    def _add_rows(
+        self, lower: NDArray[np.float64], upper: NDArray[np.float64], a: csr_array
+    ) -> None:
         starts, columns = a.indptr[:-1].astype(np.int32), a.indices.astype(np.int32)
-        lower, upper = np.full(m, -INF), np.ones(m)
-        self.model.addRows(m, lower, upper, a.nnz, starts, columns, a.data)  # (5)
+        self.model.addRows(len(lower), lower, upper, a.nnz, starts, columns, a.data)
 
 
 def set_partitioning(
@@ -95,7 +117,7 @@ def set_partitioning(
     counts
         Least and largest number of flights of each station, and of all; shape ``(k + 1, 2)``.
     integer
-        Whether to ask for (6), or for x >= 0 only.
+        Whether to ask for (7), or for x >= 0 only.
     cover
         Whether (2) reads >= 1.
     price

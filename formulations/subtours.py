@@ -55,7 +55,7 @@ def violated_sets(x: NDArray[np.float64], tol: float = 1e-4) -> Iterator[Nodes]:
         unsearched[v] = False
         cut = maximum_flow(capacity, 0, v)
         if cut.flow_value < (1.0 - tol) * SCALE:
-            S = _sink_side(csr_array(capacity - cut.flow), v)
+            S = sink_side(csr_array(capacity - cut.flow), v)
             unsearched[list(S)] = False
             yield S
 
@@ -85,7 +85,7 @@ def inflow_row(
     return x[into].sum() >= least
 
 
-def _sink_side(residual: csr_array, v: int) -> Nodes:
+def sink_side(residual: csr_array, v: int) -> Nodes:
     """Return the nodes from which ``v`` can still be reached."""
     residual.eliminate_zeros()
     nodes = breadth_first_order(csr_array(residual.T), v, return_predecessors=False)

@@ -32,15 +32,22 @@ def all_flights(t, t_max):
     return best
 
 
-def solved(t, t_max, counts=FREE, rows=(), **options):
-    """Return the optimum over all flights, with subset rows for the triples ``rows``."""
+def solved(t, t_max, counts=FREE, rows=(), crowded=(), **options):
+    """Return the optimum over all flights.
+
+    There are subset rows for the triples ``rows``, and two flights enter each set in ``crowded``.
+    """
     flights = all_flights(t, t_max)
     n = len(t) - 1
     program = set_partitioning(n, counts, **options)
-    program.add_subset_rows(csr_array((len(rows), program.model.getNumCol())))
+    before = program.model.getNumCol()
+    program.add_entry_rows(csr_array((len(crowded), before)), np.full(len(crowded), 2.0))
+    program.add_subset_rows(csr_array((len(rows), before)))
     visits = np.array([[i in flight for flight in flights] for i in range(1, n + 1)], float)
+    entered = [[bool(set(row) & set(flight)) for flight in flights] for row in crowded]
     cut = [[len(set(row) & set(flight)) // 2 for flight in flights] for row in rows]
-    a = np.vstack([visits, np.ones((2, len(flights))), np.reshape(cut, (len(rows), len(flights)))])
+    both = [np.reshape(each, (len(each), len(flights))) for each in (entered, cut)]
+    a = np.vstack([visits, np.ones((2, len(flights))), *both])
     program.add_flights(np.array(list(flights.values())), csc_array(a))
     program.model.run()
     assert program.model.getModelStatus() == highspy.HighsModelStatus.kOptimal
@@ -72,6 +79,16 @@ def test_a_subset_row_cuts_off_half_flights():
     pair, alone = 2 + np.sqrt(3), 2.0
     assert solved(t, 4.0, integer=False) == pytest.approx(1.5 * pair)
     assert solved(t, 4.0, rows=[(1, 2, 3)], integer=False) == pytest.approx(pair + alone)
+
+
+def test_two_flights_enter_a_set_that_one_cannot_serve():
+    angle = 2 * np.pi * np.arange(3) / 3
+    xy = np.vstack([np.zeros(2), np.c_[np.cos(angle), np.sin(angle)]])
+    t = np.hypot(*(xy[:, None] - xy[None]).T)
+    whole = solved(t, 4.0)
+    assert solved(t, 4.0, crowded=[(1, 2, 3)], integer=False) == pytest.approx(whole)
+    left_out = solved(t, 4.0, crowded=[(1, 2, 3)], integer=False, price=1e-3)
+    assert left_out >= 2e-3  # the row asks for two flights, whatever is left out
 
 
 def test_the_relaxation_never_exceeds_the_optimum():

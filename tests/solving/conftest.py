@@ -82,5 +82,6 @@ def small():
     class Small:
         random_instance = staticmethod(random_instance)
         optimum = staticmethod(optimum)
+        best_flights = staticmethod(best_flights)
 
     return Small

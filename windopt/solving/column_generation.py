@@ -141,15 +141,22 @@ def _narrow(closing: Closing, effort: int) -> bool:
     """Cut until much less of the gap is left, or often enough; tell whether cuts help."""
     relaxation = closing.relaxation
     enough = NARROWER * relaxation.gap
+    _enter(relaxation)
     for _ in range(ROUNDS):
         if relaxation.gap <= enough:
             break
         if not relaxation.cut(effort):
             return False
-        relaxation.round_flights()
+        _enter(relaxation)
         if not closing.fix(effort):
             return False
     return True
+
+
+def _enter(relaxation: Relaxation) -> None:
+    """Send whole numbers of flights, in all and into turbines that need several."""
+    while relaxation.round_flights() or relaxation.enter_crowded_sets():
+        pass
 
 
 def _result(search: Search, stopped: Status, lacking: str) -> Result[tuple[Route, ...]]:

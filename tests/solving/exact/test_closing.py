@@ -40,13 +40,13 @@ def test_parts_of_the_gap_prove_the_same_optimum(small, refused, seed):
 
 
 def test_cuts_that_make_too_many_labels_leave_what_was_known_before(small, refused, monkeypatch):
-    crowded = []
+    overfull = []
     cut = Relaxation.cut
     monkeypatch.setattr(
-        Relaxation, "cut", lambda self, most: (cut(self, 1), crowded.append(self.crowded))[0]
+        Relaxation, "cut", lambda self, most: (cut(self, 1), overfull.append(self.overfull))[0]
     )
     for seed in (412, 479, 489, 558, 566, 595):
         instance = small.random_instance(seed)
         result = column_generation(instance, time_limit=5.0)
         assert result.objective == pytest.approx(small.optimum(instance), rel=1e-9)
-    assert any(crowded)
+    assert any(overfull)

@@ -10,6 +10,7 @@ import pytest
 from windopt.domain.routing import RoutingInstance
 from windopt.solving.exact.clock import Clock
 from windopt.solving.exact.completions import completion_bounds
+from windopt.solving.exact.crowded_sets import CrowdedSets
 from windopt.solving.exact.enumeration import enumerate_flights
 from windopt.solving.exact.master import Duals
 from windopt.solving.exact.network import SLACK
@@ -52,20 +53,31 @@ def reduced_costs(duals, cuts, flights):
     """Return the reduced costs of flights, with cuts counted as far as they remember."""
     paths = [path for _, path, _ in flights]
     earned = [duals.pi[list(path)].sum() + duals.toll[d] for d, path, _ in flights]
-    paid = duals.penalty @ cuts.coefficients(paths)
+    paid = duals.penalty @ cuts.coefficients(paths) - duals.reward @ duals.crowded.entries(paths)
     return np.array([time for *_, time in flights]) - earned + paid
 
 
 def reduced_cost_in_full(duals, cuts, flight):
     d, path, time = flight
     pairs = np.isin(cuts.triples, path).sum(axis=1) >= 2
-    return time - duals.pi[list(path)].sum() - duals.toll[d] + duals.penalty[pairs].sum()
+    visited = duals.crowded.sets[:, list(path)].any(axis=1)
+    earned = duals.pi[list(path)].sum() + duals.toll[d] + duals.reward[visited].sum()
+    return time - earned + duals.penalty[pairs].sum()
 
 
-def random_duals(rng, relaxation, m):
-    n, k = relaxation.search.n, len(relaxation.search.networks)
-    pi = rng.uniform(0, 500, n)
-    return Duals(pi, rng.uniform(-100, 50, k + 1), rng.uniform(0, 200, m))
+def random_duals(rng, relaxation):
+    master = relaxation.master
+    pi, sigma = rng.uniform(0, 500, master.n), rng.uniform(-100, 50, len(master.counts))
+    penalty, reward = (rng.uniform(0, 200, len(each)) for each in (master.cuts, master.crowded))
+    return Duals(pi, sigma, penalty, reward, master.crowded)
+
+
+def random_crowded_sets(rng, n):
+    """Return sets that two flights enter in any plan of one flight to each turbine."""
+    sets = np.zeros((3, n), bool)
+    for each in sets:
+        each[rng.choice(n, int(rng.integers(2, 5)), replace=False)] = True
+    return CrowdedSets(sets, np.full(3, 2.0))
 
 
 @pytest.fixture(params=range(6))
@@ -85,8 +97,10 @@ def setting(request):
         legs = (len(triples), search.n, search.n)
         memory = rng.random(legs) < 0.6 if request.param % 2 else np.ones(legs, bool)
         cuts = Cuts(triples, memory)
-        relaxation.master.rebuild(relaxation.master.columns, cuts)
-        yield search, relaxation, random_duals(rng, relaxation, len(triples))
+        none = CrowdedSets.none(search.n)
+        crowded = random_crowded_sets(rng, search.n) if request.param > 2 else none
+        relaxation.master.rebuild(relaxation.master.columns, cuts, crowded)
+        yield search, relaxation, random_duals(rng, relaxation)
 
 
 def test_as_many_flights_are_sent_as_the_bound_takes(setting):
@@ -165,16 +179,19 @@ def test_bounds_on_completions_lose_no_flight(setting, monkeypatch):
 
 def test_no_flight_ends_for_less_than_its_bounds(setting):
     search, relaxation, duals = setting
-    loose = relaxation.pricer.loose(relaxation.master.cuts.prices(duals.pi, duals.penalty))
+    prices = relaxation.master.cuts.prices(duals.pi, duals.penalty)
+    loose = relaxation.pricer.loose(prices, duals.grant)
     limits = duals.toll + 100.0
     bounds = completion_bounds(loose, limits)
     for d, path, time in flights(search.networks):
-        network, total = search.networks[d], time - duals.pi[list(path)].sum()
+        network, earned = search.networks[d], duals.pi[list(path)].sum()
+        total = time - earned - duals.reward @ duals.crowded.entries([path])[:, 0]
         if total > limits[d]:
             continue
         for end in range(1, len(path) + 1):
             flown = network.duration(path[:end]) - network.back[path[end - 1]]
             so_far = flown - duals.pi[list(path[:end])].sum()
+            so_far -= duals.reward @ duals.crowded.entries([path[:end]])[:, 0]
             left = int((network.t_max - flown + SLACK) / bounds[2 * d].step)
             assert so_far + bounds[2 * d].table[path[end - 1], left] <= total + 1e-9
 

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from windopt.solving.exact.clock import Clock
-from windopt.solving.exact.pool import Pool, Tree
+from windopt.solving.exact.crowded_sets import CrowdedSets
+from windopt.solving.exact.pool import Pool, Tree, reduced_costs
 from windopt.solving.exact.rank_one_rows import Rows
 from windopt.solving.exact.selection import Selection
 from windopt.solving.exact.subset_row_cuts import packed
@@ -23,7 +24,7 @@ def pool(members, cost, station):
 def test_flights_that_must_be_sent_and_are_lacking_are_dear_not_impossible():
     counts = np.array([[0.0, inf], [0.0, inf], [2.0, inf]])
     once = Rows.subsets(np.array([[0, 1, 2]]))
-    selection = Selection(3, counts, once, np.full(3, 50.0), 50.0)
+    selection = Selection(3, counts, once, np.full(3, 50.0), 50.0, CrowdedSets.none(3))
     selection.add(pool(np.ones((1, 3), bool), [10.0], [0]))
     with Clock(60.0) as clock:
         duals, flown = selection.solve(clock)
@@ -32,11 +33,30 @@ def test_flights_that_must_be_sent_and_are_lacking_are_dear_not_impossible():
     assert duals.value(counts) == pytest.approx(60.0)
 
 
+def test_a_crowded_set_is_entered_as_often_as_it_needs():
+    members = np.array([[1, 1, 0], [0, 1, 1], [1, 0, 1], [0, 0, 1]], bool)
+    counts = np.tile([0.0, inf], (3, 1))
+    none = Rows.subsets(np.zeros((0, 3), np.int64))
+    crowded = CrowdedSets(np.ones((1, 3), bool), np.array([2.0]))
+    selection = Selection(3, counts, none, np.full(3, 50.0), 50.0, crowded)
+    flights = pool(members, [10.0, 10.0, 10.0, 8.0], [0, 1, 0, 1])
+    selection.add(flights)
+    with Clock(60.0) as clock:
+        duals, flown = selection.solve(clock)
+        slices = flights.slices(3, clock)
+        reduced = reduced_costs(flights, slices, duals, none, clock)
+    assert flown.sum() == pytest.approx(2.0)
+    assert duals.value(counts) == pytest.approx(18.0)
+    assert duals.reward[0] > 0
+    assert reduced.min() == pytest.approx(0.0)
+    assert reduced[flown[2:] > 1e-9] == pytest.approx(0.0)
+
+
 def test_rows_without_a_price_may_go():
     members = np.array([[1, 1, 0], [0, 1, 1], [1, 0, 1], [1, 1, 1]], bool)
     counts = np.tile([0.0, inf], (3, 1))
     none = Rows.subsets(np.zeros((0, 3), np.int64))
-    selection = Selection(3, counts, none, np.full(3, 50.0), 50.0)
+    selection = Selection(3, counts, none, np.full(3, 50.0), 50.0, CrowdedSets.none(3))
     selection.add(pool(members, [10.0, 10.0, 10.0, 18.0], [0, 1, 0, 1]))
     with Clock(60.0) as clock:
         before = selection.solve(clock)[0].value(counts)

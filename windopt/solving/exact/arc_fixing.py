@@ -50,7 +50,7 @@ def _through(
         i = ahead.node[a]
         for e in range(side.degree[i]):
             j = side.heads[i, e]
-            so_far = ahead.C[a] + side.legs[i, j]
+            so_far = ahead.C[a] + side.legs_cost[i, j]
             left = t_max - ahead.T[a] - side.legs[i, j] + SLACK
             below = min(cost[i, j], limit) - so_far + EPS
             if left < 0.0 or rest[j, int(left / step)] - prices.pi[j] >= below:

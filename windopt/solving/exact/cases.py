@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from windopt.domain.certificate import Case, Question, Round, Sent, Together
+from windopt.solving.exact.crowded_sets import CrowdedSets
 from windopt.solving.exact.labels import Ints
 from windopt.solving.exact.master import Duals
 from windopt.solving.exact.network import Bools, Floats
@@ -129,9 +130,8 @@ def _rounds(
     inside = np.zeros(len(left.pool), bool)
     inside[np.argsort(left.reduced, kind="stable")[:FIRST]] = True
     pool, counts = left.pool, left.counts
-    selection = Selection(
-        search.n, counts, Rows.subsets(left.triples), np.minimum(search.prize, target), target
-    )
+    price, none = np.minimum(search.prize, target), CrowdedSets.none(search.n)
+    selection = Selection(search.n, counts, Rows.subsets(left.triples), price, target, none)
     selection.add(pool.kept(inside))
     rounds: list[Round] = []
     recorded, before = np.inf, -np.inf

@@ -6,6 +6,7 @@ when time is up, and when the user interrupts, whom the waiting main thread can 
 
 from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor, wait
+from math import inf
 from os import cpu_count
 from threading import Timer
 from time import perf_counter
@@ -105,10 +106,16 @@ class Clock:
             self.check()
             raise RuntimeError(f"A linear program ended as {model.getModelStatus()}.")
 
-    def minimise(self, model: highspy.Highs) -> highspy.HighsModelStatus:
-        """Run HiGHS until it is done or time is up; an interrupt by the user stops it at once."""
+    def minimise(self, model: highspy.Highs, limit: float = inf) -> highspy.HighsModelStatus:
+        """Run HiGHS until it is done or time is up; an interrupt by the user stops it at once.
+
+        Parameters
+        ----------
+        limit
+            Time to run at most [s], where less than is left.
+        """
         self.check()
-        model.setOptionValue("time_limit", model.getRunTime() + self.left)
+        model.setOptionValue("time_limit", model.getRunTime() + min(limit, self.left))
         if watched.run(model, lambda news: None):
             raise KeyboardInterrupt
         status: highspy.HighsModelStatus = model.getModelStatus()

@@ -111,7 +111,7 @@ class Closing:
             cuts = len(relaxation.master.cuts)
             fixing = relaxation.fix_arcs(most=min(most, WORTH) if cuts else MOST_LABELS)
             self.fixing, fixed = fixing or self.fixing, fixing is not None
-            relaxation.crowded |= not fixed and cuts > 0
+            relaxation.overfull |= not fixed and cuts > 0
         return fixed
 
     def _close_parts(self, fixing: Fixing, effort: int) -> bool:

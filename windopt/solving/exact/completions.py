@@ -46,7 +46,7 @@ def _reached(found: Labels, side: Side, t_max: float, step: float) -> Floats:
     table = np.full((n, steps), np.inf)
     for j in range(n):
         if side.first[j] <= t_max:
-            table[j, int(side.first[j] / step)] = side.first[j]
+            table[j, int(side.first[j] / step)] = side.first_cost[j]
     for a in range(len(found.T)):
         i = found.node[a]
         for e in range(side.degree[i]):
@@ -54,7 +54,7 @@ def _reached(found: Labels, side: Side, t_max: float, step: float) -> Floats:
             t = found.T[a] + side.legs[i, j]
             if t <= t_max + SLACK:
                 q = int(t / step)
-                table[j, q] = min(table[j, q], found.C[a] + side.legs[i, j])
+                table[j, q] = min(table[j, q], found.C[a] + side.legs_cost[i, j])
     for j in range(n):
         for q in range(1, steps):
             table[j, q] = min(table[j, q], table[j, q - 1])

@@ -55,7 +55,7 @@ def enumerate_flights(
     slots, count = empty_slots(1 << 16), 0
     trees = []
     for d, (network, rest) in enumerate(zip(networks, fixing.completions, strict=True)):
-        limit = float(fixing.limits(gap)[d])
+        network, limit = network.granted(fixing.duals.grant), float(fixing.limits(gap)[d])
         halves = _both_halves(network, prices, fixing.memory, rest, limit, half_capacity, clock)
         if halves is None:
             return None

@@ -50,8 +50,12 @@ class Fixing:
         return [network.restricted(through <= limit) for network, through, limit in each]
 
     def reduced_cost(self, station: int, path: Path, time: float) -> float:
-        """Return the reduced cost of a flight without cycles, cuts counted in full."""
+        """Return the reduced cost of a flight without cycles.
+
+        Cuts are counted in full, and crowded sets once however often they are entered.
+        """
         visits = np.isin(self.cuts.triples, path).sum(axis=1)
         penalty = self.duals.penalty[visits >= 2].sum()
-        reward = self.duals.pi[list(path)].sum() + self.duals.toll[station]
-        return float(time - reward + penalty)
+        entered = self.duals.reward[self.duals.crowded.sets[:, list(path)].any(axis=1)].sum()
+        earned = self.duals.pi[list(path)].sum() + self.duals.toll[station] + entered
+        return float(time - earned + penalty)

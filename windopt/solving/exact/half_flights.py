@@ -149,7 +149,7 @@ def _start(
     """Fly from the station to each turbine."""
     count, fitted = 0, True
     for j in range(len(side.first)):
-        t, c = side.first[j], side.first[j] - prices.pi[j]
+        t, c = side.first[j], side.first_cost[j] - prices.pi[j]
         if fitted and _in_time(side, interest, j, t):
             left = interest.t_max - t + SLACK
             if c + rest[j, int(left / interest.step)] <= interest.limit:
@@ -177,12 +177,11 @@ def _extend(
     i = found.node[current]
     for e in range(side.degree[i]):
         j = side.heads[i, e]
-        leg = side.legs[i, j]
-        t = found.T[current] + leg
+        t, so_far = found.T[current] + side.legs[i, j], found.C[current] + side.legs_cost[i, j]
         visited = found.set[current, j >> 6] & bit(j) != NONE
         if visited or not _in_time(side, interest, j, t):
             continue
-        c = found.C[current] + leg - prices.pi[j]
+        c = so_far - prices.pi[j]
         recalled(found.S, current, prices, i, j, kept)
         for word in range(len(S)):
             c += price_of(kept[0, word] & prices.inside[j, word], word, prices.penalty)
@@ -191,7 +190,7 @@ def _extend(
         if c + rest[j, int(left / interest.step)] > interest.limit:
             continue
         V = _remembered(found.set, current, j, memory)
-        below = interest.limit - found.C[current] - leg + EPS
+        below = interest.limit - so_far + EPS
         _, end = partner(ends, least, j, V, kept, 0, left, below, below, prices.penalty)
         if end >= 0:
             slots, count, fitted = _keep(found, slots, count, current, j, t, c, S)

@@ -121,10 +121,10 @@ def _add_behind(
 ) -> tuple[Ints, int, bool]:
     """Add the backward halves that are flights by themselves: half goes by on their first leg."""
     for b in range(len(backward.T)):
-        first = side.first[backward.node[b]]
-        whole = first + backward.T[b]
-        in_time = first > terms.half and whole <= terms.t_max + SLACK
-        if in_time and backward.C[b] + first <= terms.limit:
+        j = backward.node[b]
+        whole = side.first[j] + backward.T[b]
+        in_time = side.first[j] > terms.half and whole <= terms.t_max + SLACK
+        if in_time and backward.C[b] + side.first_cost[j] <= terms.limit:
             _union(sets, count, backward.set, b, backward.set, -1)
             slots, count, fitted = _record(sets, slots, count, whole, terms.d, -1, b, terms.apart)
             if not fitted:
@@ -137,9 +137,9 @@ def _add_ahead(
     forward: Halves, f: int, side: Side, terms: Terms, sets: Sets, slots: Ints, count: int
 ) -> tuple[Ints, int, bool]:
     """Add a forward half as a flight by itself."""
-    last = side.last[forward.node[f]]
-    whole = forward.T[f] + last
-    if forward.C[f] + last > terms.limit or whole > terms.t_max + SLACK:
+    i = forward.node[f]
+    whole = forward.T[f] + side.last[i]
+    if forward.C[f] + side.last_cost[i] > terms.limit or whole > terms.t_max + SLACK:
         return slots, count, True
     _union(sets, count, forward.set, f, forward.set, -1)
     return _record(sets, slots, count, whole, terms.d, f, -1, terms.apart)
@@ -155,7 +155,7 @@ def _add_joined(
     i = forward.node[f]
     for e in range(side.degree[i]):
         j = side.heads[i, e]
-        t, c = forward.T[f] + side.legs[i, j], forward.C[f] + side.legs[i, j]
+        t, c = forward.T[f] + side.legs[i, j], forward.C[f] + side.legs_cost[i, j]
         left = terms.t_max - t + SLACK
         visited = forward.set[f, j >> 6] & bit(j) != NONE
         if t <= terms.half or left < 0.0 or visited:

@@ -95,13 +95,12 @@ def _joined(
     cost, label = limit, ALONE
     i = forward.node[f]
     if forward.T[f] + side.last[i] <= t_max + SLACK:
-        cost = min(limit, forward.C[f] + side.last[i])
+        cost = min(limit, forward.C[f] + side.last_cost[i])
     for e in range(side.degree[i]):
         j = side.heads[i, e]
-        leg = side.legs[i, j]
-        left = t_max - forward.T[f] - leg + SLACK
-        below = cost - forward.C[f] - leg
-        if forward.T[f] + leg <= half or left < 0.0 or least[-1, j] >= below:
+        t, so_far = forward.T[f] + side.legs[i, j], forward.C[f] + side.legs_cost[i, j]
+        left, below = t_max - t + SLACK, cost - so_far
+        if t <= half or left < 0.0 or least[-1, j] >= below:
             continue
         if forward.V[f] & memory.bit[i, j] != NONE:
             continue
@@ -109,7 +108,7 @@ def _joined(
         recalled(forward.S, f, prices, i, j, S)
         best, b = partner(backward, least, j, V, S, 0, left, below, -np.inf, prices.penalty)
         if b >= 0:
-            cost, label = forward.C[f] + leg + best, b
+            cost, label = so_far + best, b
     return cost, label
 
 
@@ -166,4 +165,4 @@ def alone(
     """
     first = side.first[backward.node]
     whole = np.flatnonzero((first > half) & (first + backward.T <= t_max + SLACK))
-    return whole, backward.C[whole] + first[whole]
+    return whole, backward.C[whole] + side.first_cost[backward.node[whole]]

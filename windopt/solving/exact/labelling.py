@@ -39,7 +39,7 @@ def _start(
         if side.first[j] <= span.horizon and side.first[j] + side.rest[j] <= span.t_max + SLACK:
             new = waiting.row[1]
             waiting.T[new] = side.first[j]
-            waiting.C[new] = side.first[j] - prices.pi[j]
+            waiting.C[new] = side.first_cost[j] - prices.pi[j]
             waiting.V[new] = memory.bit[j, j]
             waiting.S[new] = prices.inside[j]
             waiting.parent[new], waiting.checked[new] = -1, -1
@@ -129,7 +129,7 @@ def _extend(
         new = waiting.row[0] if waiting.row[0] >= 0 else waiting.row[1]
         if new == len(waiting.T):
             return False
-        c = found.C[a] + side.legs[i, j] - prices.pi[j]
+        c = found.C[a] + side.legs_cost[i, j] - prices.pi[j]
         for word in range(waiting.S.shape[1]):
             kept = found.S[a, word] & prices.memory[i, j, word]
             c += price_of(kept & prices.inside[j, word], word, prices.penalty)

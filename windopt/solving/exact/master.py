@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
@@ -9,9 +10,12 @@ from scipy.sparse import csc_array, csr_array, vstack
 
 from formulations.set_partitioning import SetPartitioning, set_partitioning
 from windopt.solving.exact.clock import Clock
+from windopt.solving.exact.crowded_sets import CrowdedSets
 from windopt.solving.exact.network import Floats, Network
 from windopt.solving.exact.subset_row_cuts import Column, Cuts, Path
 
+DUAL, PRIMAL = 1, 4
+"""Strategies of HiGHS's simplex method: for rows that were added, and for columns."""
 MISSING = 5.0
 """Cost of leaving out a turbine that must not be, in t_max: more than any flight saves by it."""
 
@@ -27,12 +31,23 @@ class Duals:
     sigma
         Price of a flight from each station, and of any flight, shape ``(k + 1,)``.
     penalty
-        Price of each cut, not negative.
+        Price of each subset-row cut, not negative.
+    reward
+        Price of a flight into each crowded set, not negative.
+    crowded
+        Those sets.
     """
 
     pi: Floats
     sigma: Floats
     penalty: Floats
+    reward: Floats
+    crowded: CrowdedSets
+
+    @cached_property
+    def grant(self) -> Floats:
+        """What crowded sets grant for flying each leg, the station last; ``(n + 1, n + 1)``."""
+        return self.crowded.entered(self.reward)
 
     @property
     def toll(self) -> Floats:
@@ -44,7 +59,8 @@ class Duals:
         """Return the bound these duals prove when no flight has a negative reduced cost."""
         tight = np.where(self.sigma > 0, counts[:, 0], counts[:, 1])
         paid = np.where(self.sigma == 0.0, 0.0, self.sigma) @ np.where(self.sigma == 0, 0.0, tight)
-        return float(self.pi.sum() - self.penalty.sum() + paid)
+        entered = self.reward @ self.crowded.need
+        return float(self.pi.sum() - self.penalty.sum() + entered + paid)
 
 
 class Master:
@@ -74,6 +90,7 @@ class Master:
         longest = max(network.t_max for network in networks)
         self.price = np.where(np.isfinite(prize), prize, MISSING * longest)
         self.cuts = Cuts.none(len(networks[0].out))
+        self.crowded = CrowdedSets.none(len(networks[0].out))
         self.columns: list[Column] = []
         self._known: set[tuple[int, Path]] = set()
         self.x = np.zeros(0)
@@ -90,13 +107,20 @@ class Master:
         """Return the column of one flight."""
         return Column(station, path, self.networks[station].duration(path))
 
-    def rebuild(self, columns: Iterable[Column], cuts: Cuts | None = None) -> None:
-        """Start anew with ``columns`` and, where given, ``cuts``."""
+    def rebuild(
+        self,
+        columns: Iterable[Column],
+        cuts: Cuts | None = None,
+        crowded: CrowdedSets | None = None,
+    ) -> None:
+        """Start anew with ``columns`` and, where given, ``cuts`` and ``crowded``."""
         columns = list(columns)
         self.cuts = self.cuts if cuts is None else cuts
+        self.crowded = self.crowded if crowded is None else crowded
         self._program = set_partitioning(
             self.n, self.counts, integer=False, cover=True, price=self.price
         )
+        self._program.add_entry_rows(self.crowded.left_out, self.crowded.need)
         self._program.add_subset_rows(csr_array((len(self.cuts), self.n)))
         self.columns, self._known, self.x = [], set(), np.zeros(0)
         self.add(columns)
@@ -139,21 +163,26 @@ class Master:
         sent = np.zeros((len(self.counts), len(columns)))
         sent[stations, np.arange(len(columns))] = 1.0
         sent[-1] = 1.0
-        cut = self.cuts.coefficients([column.path for column in columns])
-        return csc_array(vstack([visits, csc_array(sent), csc_array(cut)]))
+        paths = [column.path for column in columns]
+        entries, cut = self.crowded.entries(paths), self.cuts.coefficients(paths)
+        blocks = (sent, entries, cut)
+        return csc_array(vstack([visits, *(csc_array(block) for block in blocks)]))
 
     def solve(self, clock: Clock) -> Duals:
         """Solve the relaxation and return its duals."""
         model = self._program.model
+        warm = len(self.x) > 0  # columns leave the last basis feasible
+        model.setOptionValue("simplex_strategy", PRIMAL if warm else DUAL)
         clock.run(model)
         solution = model.getSolution()
         values = np.array(solution.col_value)
         self.x = values[self.n :]
         self.value = model.getInfo().objective_function_value
         dual = np.array(solution.row_dual)
-        rows = self.n + len(self.counts)
-        pi = np.clip(dual[: self.n], 0.0, self.price)  # the solver keeps this but for rounding
-        return Duals(pi, dual[self.n : rows], np.maximum(-dual[rows:], 0.0))
+        pi, sigma, reward, penalty = np.split(dual, self._program.first_rows)
+        pi = np.clip(pi, 0.0, self.price)  # the solver keeps this but for rounding
+        reward, penalty = np.maximum(reward, 0.0), np.maximum(-penalty, 0.0)
+        return Duals(pi, sigma, penalty, reward, self.crowded)
 
     def reduced_costs(self) -> Floats:
         """Return the reduced cost of each column."""

@@ -4,7 +4,7 @@ A flight read backwards is a flight in the transposed network, so every search b
 :class:`Side` and does not know which way it looks.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import NamedTuple, Self
 
@@ -37,6 +37,8 @@ class Side(NamedTuple):
         Least time from each turbine to the other end, by any way, shape ``(n,)``.
     heads, degree
         The turbines that may follow i are ``heads[i, :degree[i]]``.
+    first_cost, legs_cost, last_cost
+        What legs cost: their time, less what is granted for flying them.
     """
 
     first: Floats
@@ -45,6 +47,9 @@ class Side(NamedTuple):
     rest: Floats
     heads: NDArray[np.int32]
     degree: NDArray[np.int32]
+    first_cost: Floats
+    legs_cost: Floats
+    last_cost: Floats
 
 
 @dataclass(frozen=True)
@@ -65,9 +70,9 @@ class Network:
         arriving, leaving = _least(out, legs), _least(back, legs.T)
         through = arriving[:, None] + legs + leaving[None, :]
         arcs = arcs & (through <= t_max + SLACK)
-        forward = Side(out, legs, back, leaving, *_lists(arcs))
+        forward = Side(out, legs, back, leaving, *_lists(arcs), out, legs, back)
         turned = np.ascontiguousarray(legs.T)
-        backward = Side(back, turned, out, arriving, *_lists(arcs.T))
+        backward = Side(back, turned, out, arriving, *_lists(arcs.T), back, turned, out)
         return cls(t_max, out, legs, back, arcs, forward, backward)
 
     def restricted(self, arcs: Bools) -> "Network":
@@ -82,6 +87,21 @@ class Network:
             _narrowed(self.forward, arcs),
             _narrowed(self.backward, arcs.T),
         )
+
+    def granted(self, grant: Floats) -> "Network":
+        """Return the network in which legs cost their time less ``grant``.
+
+        Parameters
+        ----------
+        grant
+            Shape ``(n + 1, n + 1)``, the station last.
+        """
+        out, back = self.out - grant[-1, :-1], self.back - grant[:-1, -1]
+        legs = self.legs - grant[:-1, :-1]
+        turned = np.ascontiguousarray(legs.T)
+        forward = self.forward._replace(first_cost=out, legs_cost=legs, last_cost=back)
+        backward = self.backward._replace(first_cost=back, legs_cost=turned, last_cost=out)
+        return replace(self, forward=forward, backward=backward)
 
     @property
     def half(self) -> float:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from windopt.solving.exact.bits import NONE, ONE, position
 from windopt.solving.exact.clock import Clock
-from windopt.solving.exact.compiled import compiled
+from windopt.solving.exact.compiled import compiled, inlined
 from windopt.solving.exact.labels import Ints, Words, path
 from windopt.solving.exact.master import Duals
 from windopt.solving.exact.network import Bools, Floats
@@ -97,38 +97,48 @@ class Pool:
         return np.ascontiguousarray(np.concatenate(parts, axis=1))
 
 
+@inlined
+def _add(cost: Floats, first: int, bits: np.uint64, amount: float) -> None:
+    """Add ``amount`` to the cost of each flight whose bit is set, the lowest that of ``first``."""
+    while bits != NONE:
+        lowest = bits & (~bits + ONE)
+        bits ^= lowest
+        cost[first + position(lowest)] += amount
+
+
 @compiled
 def _priced(
     cost: Floats,
     slices: Words,
     pi: Floats,
+    sets: Bools,
+    reward: Floats,
     rows: Rows,
     penalty: Floats,
     start: int,
     end: int,
 ) -> None:
     """Take rewards off ``cost`` and add penalties, for the words ``start`` to ``end``."""
+    for row in range(len(reward)):
+        inside = np.flatnonzero(sets[row])
+        for word in range(start, end):
+            bits = NONE
+            for turbine in inside:
+                bits |= slices[turbine, word]
+            _add(cost, 64 * word, bits, -reward[row])
     for i in range(len(pi)):
         if pi[i] != 0.0:
             for word in range(start, end):
-                bits = slices[i, word]
-                while bits != NONE:
-                    lowest = bits & (~bits + ONE)
-                    bits ^= lowest
-                    cost[64 * word + position(lowest)] -= pi[i]
+                _add(cost, 64 * word, slices[i, word], -pi[i])
     for row in range(len(penalty)):
         for level in range(1, rows.right[row] + 1):
             share = penalty[row] / rows.right[row]
             for word in range(start, end):
-                bits = reaching(slices, word, rows, row, level)
-                while bits != NONE:
-                    lowest = bits & (~bits + ONE)
-                    bits ^= lowest
-                    cost[64 * word + position(lowest)] += share
+                _add(cost, 64 * word, reaching(slices, word, rows, row, level), share)
 
 
 def reduced_costs(pool: Pool, slices: Words, duals: Duals, rows: Rows, clock: Clock) -> Floats:
-    """Return the reduced cost of each flight, rows counted in full.
+    """Return the reduced cost of each flight, rows counted in full and crowded sets once.
 
     Parameters
     ----------
@@ -140,9 +150,10 @@ def reduced_costs(pool: Pool, slices: Words, duals: Duals, rows: Rows, clock: Cl
     cost = pool.cost - duals.toll[pool.station]
     active = rows.kept(duals.penalty > 0.0)
     penalty = duals.penalty[duals.penalty > 0.0]
+    sets, reward = duals.crowded.sets[duals.reward > 0.0], duals.reward[duals.reward > 0.0]
 
     def price(start: int, end: int) -> None:
-        _priced(cost, slices, duals.pi, active, penalty, start, end)
+        _priced(cost, slices, duals.pi, sets, reward, active, penalty, start, end)
 
     parts = np.linspace(0, slices.shape[1], PARTS + 1).astype(np.int64)
     clock.map(price, parts[:-1], parts[1:])

@@ -78,15 +78,22 @@ class Pricer:
         fitting = int(self.memory / (held * (sides + 2 * min(sides, self.clock.threads))))
         return min(fitting, self.most)
 
-    def sides(self, prices: Prices) -> BothSides:
-        """Return what labels are made from."""
-        memory, capacity = self.neighbourhoods.memory, self.capacity(prices)
-        return BothSides(self.networks, prices, memory, capacity, self.clock)
+    def sides(self, prices: Prices, grant: Floats) -> BothSides:
+        """Return what labels are made from.
 
-    def loose(self, prices: Prices) -> BothSides:
-        """Return what labels are made from that know of no cut and remember little."""
+        Parameters
+        ----------
+        grant
+            What is granted for flying each leg, shape ``(n + 1, n + 1)``, the station last.
+        """
+        memory, capacity = self.neighbourhoods.memory, self.capacity(prices)
+        networks = [network.granted(grant) for network in self.networks]
+        return BothSides(networks, prices, memory, capacity, self.clock)
+
+    def loose(self, prices: Prices, grant: Floats) -> BothSides:
+        """Return what labels are made from that know of no subset row and remember little."""
         bare = Cuts.none(len(prices.pi)).prices(prices.pi, np.zeros(0))
-        return replace(self.sides(bare), memory=self.cores.memory)
+        return replace(self.sides(bare, grant), memory=self.cores.memory)
 
     def price(
         self, master: Master, duals: Duals, *, exact: bool, keep: int | None = None
@@ -103,14 +110,17 @@ class Pricer:
         """
         prices = master.cuts.prices(duals.pi, duals.penalty)
         memory, limits = self.neighbourhoods.memory, duals.toll - TOLERANCE
-        sides = self.sides(prices)
+        sides = self.sides(prices, duals.grant)
         costly = exact and bool(prices.penalty.any())
-        bounds = completion_bounds(self.loose(prices), limits) if costly else None
+        bounds = completion_bounds(self.loose(prices, duals.grant), limits) if costly else None
         halves, complete = sides.labels(bounds or sides.unbounded, exact=exact, keep=keep)
 
         def joined(d: int, limit: float) -> tuple[list[Column], float]:
             forward, backward = halves[2 * d], halves[2 * d + 1]
-            return _best(master, d, forward, backward, memory, prices, limit, self.clock.stop)
+            network = sides.networks[d]
+            return _best(
+                master, network, d, forward, backward, memory, prices, limit, self.clock.stop
+            )
 
         stations = range(len(self.networks))
         found = self.clock.map(joined, stations, limits)
@@ -121,6 +131,7 @@ class Pricer:
 
 def _best(
     master: Master,
+    network: Network,
     d: int,
     forward: Labels,
     backward: Labels,
@@ -130,7 +141,6 @@ def _best(
     stop: NDArray[np.uint8],
 ) -> tuple[list[Column], float]:
     """Return the cheapest flights of station d below ``limit``, and the least cost."""
-    network = master.networks[d]
     cost, partner = join(
         forward, backward, network.forward, memory, prices, network.t_max, network.half,
         limit, stop,

@@ -6,6 +6,7 @@ from math import ceil
 import numpy as np
 
 from windopt.solving.exact.arc_fixing import useful_arcs
+from windopt.solving.exact.crowding import Crowding
 from windopt.solving.exact.fixing import MARGIN, Fixing
 from windopt.solving.exact.master import Duals, Master
 from windopt.solving.exact.network import SLACK, Floats
@@ -31,6 +32,8 @@ WORTH = 600_000
 """Labels of one side of one station that cuts are worth; listing flights is quicker from there."""
 LABELS_SHARE = 0.2
 """Share of the memory that labels may take; those that fixed the legs are held as well."""
+ENTERED = 0.005
+"""Part of the gap that rows of crowded sets must close to be followed by others."""
 HELPFUL = 0.02
 """Part of the gap that a round of cuts must close to be followed by another."""
 
@@ -45,7 +48,9 @@ class Relaxation:
         Least and largest number of flights of each station, and of all, shape ``(k + 1, 2)``.
     duals, least
         Of the last solution, and the least reduced cost that its rounding leaves.
-    crowded
+    crowding
+        What is known of how many flights turbines need.
+    overfull
         Whether cuts have made more labels than they are worth, so that no more are added.
     """
 
@@ -56,7 +61,8 @@ class Relaxation:
     pricer: Pricer = field(init=False)
     duals: Duals = field(init=False)
     least: float = field(init=False)
-    crowded: bool = False
+    crowding: Crowding = field(init=False)
+    overfull: bool = False
 
     def __post_init__(self) -> None:
         networks = self.search.networks
@@ -65,6 +71,7 @@ class Relaxation:
         self.master.add(self.master.column(d, path) for d, path in flights)
         neighbourhoods, cores = (nearest(self.round_trips, size) for size in (NEIGHBOURS, CORE))
         memory = LABELS_SHARE * self.memory
+        self.crowding = Crowding.of(networks, np.isinf(self.search.prize), self.search.clock)
         self.pricer = Pricer(networks, neighbourhoods, cores, self.search.clock, memory)
 
     @property
@@ -201,6 +208,27 @@ class Relaxation:
         self.counts = counts
         self.master.recount(counts)
 
+    def enter_crowded_sets(self) -> bool:
+        """Send as many flights into turbines as these need, and tell whether to go on with that."""
+        if self.search.closed:
+            return False
+        master, before, gap = self.master, self.master.crowded, self.gap
+        duals = master.solve(self.search.clock)  # not priced: others are proved
+        flown = [((column.station, column.path), share) for column, share in master.flown()]
+        found = self.crowding.lacking(flown)
+        if not len(found):
+            return False
+        crowded = before.kept(duals.reward > TOLERANCE).joined(found)
+        master.rebuild(master.columns, crowded=crowded)
+        try:
+            self.solve()
+        except LabelsOverflow:
+            master.rebuild(master.columns, crowded=before)
+            self.solve()
+            return False
+        self.search.crowded = crowded
+        return gap - self.gap >= ENTERED * gap
+
     def cut(self, most: int) -> bool:
         """Cut off the fractional solution, and tell whether to go on with that.
 
@@ -212,7 +240,7 @@ class Relaxation:
             Labels of one side of one station to make at most, if memory allows as many and cuts
             are worth it.
         """
-        if self.search.closed or self.crowded:
+        if self.search.closed or self.overfull:
             return False
         before, gap = self.master.cuts, self.gap
         if not self._choose_cuts():
@@ -221,7 +249,7 @@ class Relaxation:
         try:
             self.solve()
         except LabelsOverflow:
-            self.pricer, self.crowded = pricer, True
+            self.pricer, self.overfull = pricer, True
             self.master.rebuild(self.master.columns, before)
             self.solve()
             return False
@@ -259,8 +287,9 @@ class Relaxation:
         gap = self.gap if ceiling is None else ceiling - self.value
         cuts, duals = self.master.cuts, self.duals
         prices = cuts.prices(duals.pi, duals.penalty)
-        sides = replace(self.pricer, most=most).sides(prices)
-        found = useful_arcs(sides, self.pricer.loose(prices), duals.toll + gap + MARGIN)
+        sides = replace(self.pricer, most=most).sides(prices, duals.grant)
+        loose = self.pricer.loose(prices, duals.grant)
+        found = useful_arcs(sides, loose, duals.toll + gap + MARGIN)
         if found is None:
             return None
         fixing = Fixing(self.value, duals, cuts, prices, sides.memory, *found)

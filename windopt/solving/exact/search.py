@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from windopt.domain.routing import Route, RoutingInstance
 from windopt.solving.exact.clock import Clock
+from windopt.solving.exact.crowded_sets import CrowdedSets
 from windopt.solving.exact.network import SLACK, Floats, Network, networks
 
 LOGGER = getLogger("windopt.column_generation")
@@ -54,6 +55,7 @@ class Search:
         self.bound = _arrivals(self.networks, self.prize)
         self.lp_bound = nan  # of the first relaxation
         self.nodes = 0
+        self.crowded = CrowdedSets.none(self.n)  # known to need several flights
         self._gap = gap
         self._progress = progress
         self._merge = all(_obeys_triangle(network) for network in self.networks)

@@ -6,14 +6,12 @@ from scipy.sparse import csc_array, csr_array, hstack, vstack
 
 from formulations.set_partitioning import set_partitioning
 from windopt.solving.exact.clock import Clock
+from windopt.solving.exact.crowded_sets import CrowdedSets
 from windopt.solving.exact.labels import Ints
-from windopt.solving.exact.master import Duals
+from windopt.solving.exact.master import DUAL, PRIMAL, Duals
 from windopt.solving.exact.network import Bools, Floats
 from windopt.solving.exact.pool import Pool
 from windopt.solving.exact.rank_one_rows import Rows
-
-DUAL, PRIMAL = 1, 4
-"""Strategies of HiGHS's simplex method: for rows that were added, and for columns."""
 
 
 class Selection:
@@ -30,16 +28,28 @@ class Selection:
         Of leaving each turbine out, shape ``(n,)``.
     idle_cost
         Time of an idle flight, at least that of any plan of interest.
+    crowded
+        Sets of turbines that need several flights.
     """
 
-    def __init__(self, n: int, counts: Floats, rows: Rows, price: Floats, idle_cost: float) -> None:
+    def __init__(
+        self,
+        n: int,
+        counts: Floats,
+        rows: Rows,
+        price: Floats,
+        idle_cost: float,
+        crowded: CrowdedSets,
+    ) -> None:
         self.n, self.counts, self.rows, self.price = n, counts, rows, price
+        self.crowded = crowded
         idle = len(counts) - 1
         self.members: Bools = np.zeros((idle, n), bool)
         self.station: Ints = np.arange(idle, dtype=np.int32)
         self._program = set_partitioning(n, counts, integer=False, cover=True, price=price)
         none = rows.kept(np.zeros(0, np.intp))
-        coefficients = flight_rows(self.members, self.station, len(counts), none)
+        self._program.add_entry_rows(crowded.left_out, crowded.need)
+        coefficients = flight_rows(self.members, self.station, len(counts), crowded, none)
         self._program.add_flights(np.full(idle, idle_cost), coefficients)
         self._program.add_subset_rows(csr_array((rows.m, n + idle)))
 
@@ -48,7 +58,7 @@ class Selection:
         warm = len(self.members) >= len(self.counts)  # columns leave the last basis feasible
         self._program.model.setOptionValue("simplex_strategy", PRIMAL if warm else DUAL)
         members = pool.members(self.n)
-        coefficients = flight_rows(members, pool.station, len(self.counts), self.rows)
+        coefficients = flight_rows(members, pool.station, len(self.counts), self.crowded, self.rows)
         self._program.add_flights(pool.cost, coefficients)
         self.members = np.vstack([self.members, members])
         self.station = np.concatenate([self.station, pool.station])
@@ -63,7 +73,7 @@ class Selection:
 
     def keep_rows(self, keep: Bools) -> None:
         """Keep these rows; the others must have no price."""
-        first = self.n + len(self.counts)
+        first = self._program.first_rows[-1]
         others = (first + np.flatnonzero(~keep)).astype(np.int32)
         self._program.model.deleteRows(len(others), others)
         self.rows = self.rows.kept(keep)
@@ -74,9 +84,9 @@ class Selection:
         clock.run(model)
         solution = model.getSolution()
         dual = np.array(solution.row_dual)
-        first = self.n + len(self.counts)
-        pi = np.clip(dual[: self.n], 0.0, self.price)
-        duals = Duals(pi, dual[self.n : first], np.maximum(-dual[first:], 0.0))
+        pi, sigma, reward, penalty = np.split(dual, self._program.first_rows)
+        pi, reward = np.clip(pi, 0.0, self.price), np.maximum(reward, 0.0)
+        duals = Duals(pi, sigma, np.maximum(-penalty, 0.0), reward, self.crowded)
         return duals, np.array(solution.col_value)[self.n :]
 
     def value_with(self, keep: Bools, counts: Floats, clock: Clock) -> float:
@@ -98,10 +108,16 @@ class Selection:
         return value
 
 
-def flight_rows(members: Bools, station: Ints, counts: int, rows: Rows) -> csc_array:
-    """Return the coefficients of flights in all rows of the set-partitioning program."""
+def flight_rows(
+    members: Bools, station: Ints, counts: int, crowded: CrowdedSets, rows: Rows
+) -> csc_array:
+    """Return the coefficients of flights in all rows of the set-partitioning program.
+
+    A flight enters a crowded set once: it counts for no more however often it does.
+    """
     sent = np.zeros((counts, len(members)))
     sent[station, np.arange(len(members))] = 1.0
     sent[-1] = 1.0
-    blocks = [members.T.astype(float), sent, rows.coefficients(members).T]
+    entered = crowded.visited(members)
+    blocks = [members.T.astype(float), sent, entered, rows.coefficients(members).T]
     return csc_array(vstack([csc_array(block) for block in blocks]))

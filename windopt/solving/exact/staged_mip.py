@@ -25,8 +25,9 @@ SIZES = (2500, 5000)
 LITTLE_MORE = 1.3
 LARGER = 2
 """What each stage is of the one before it, where they go on to the end."""
-NODES = 300
-"""Nodes after which HiGHS leaves the rest to branching, which adds rows in each node."""
+NODES, PATIENCE, LEAST_PATIENCE = 300, 0.1, 5.0
+"""Nodes after which HiGHS leaves the rest to branching, which adds rows in each node; and the part
+of the time so far, and time [s], after which it does if it has not come so far."""
 
 
 def staged_mip(
@@ -95,14 +96,18 @@ def minimise(
     program = set_partitioning(search.n, counts, price=search.forfeit if search.partial else None)
     model = program.model
     before = model.getNumCol()
+    program.add_entry_rows(csr_array(search.crowded.left_out[:, :before]), search.crowded.need)
     program.add_subset_rows(csr_array((rows.m, before)))
     members = pool.members(search.n)
-    program.add_flights(pool.cost, flight_rows(members, pool.station, len(counts), rows))
+    coefficients = flight_rows(members, pool.station, len(counts), search.crowded, rows)
+    program.add_flights(pool.cost, coefficients)
     model.setOptionValue("mip_rel_gap", 0.0)
     model.setOptionValue("mip_abs_gap", CLOSED)
+    patience = np.inf
     if nodes is not None:
         model.setOptionValue("mip_max_nodes", nodes)
-    status = search.clock.minimise(model)
+        patience = max(LEAST_PATIENCE, PATIENCE * search.clock.elapsed)
+    status = search.clock.minimise(model, patience)
     info = model.getInfo()
     search.note("%d flights, %d nodes", len(pool), info.mip_node_count)
     if status == highspy.HighsModelStatus.kInfeasible:

@@ -132,7 +132,7 @@ def _selected(
     """Return a program over the flights that seem to matter, and which they are."""
     inside = np.zeros(len(pool), bool)
     inside[np.argsort(reduced, kind="stable")[:FIRST]] = True
-    selection = Selection(search.n, counts, rows, search.forfeit, search.ceiling)
+    selection = Selection(search.n, counts, rows, search.forfeit, search.ceiling, search.crowded)
     selection.add(pool.kept(inside))
     return selection, inside
 

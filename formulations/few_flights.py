@@ -1,0 +1,81 @@
+r"""How little time a set of turbines takes where few flights serve it: a relaxation.
+
+Nodes :math:`V = \{0, \dots, n\}` are all stations, merged, and the turbines; :math:`x_{ij}` tells
+how much of the flights goes from i to j, and :math:`m` how many flights there may be.
+
+.. math::
+
+    \min_x \quad & \sum_{ij} t_{ij} x_{ij}                                       \tag{1} \\
+    \text{s.t.} \quad & \sum_i x_{ij} = 1              & j \in V \setminus 0       \tag{2} \\
+      & \sum_j x_{ij} = 1                              & i \in V \setminus 0       \tag{3} \\
+      & 1 \le \sum_j x_{0j} \le m                                                 \tag{4} \\
+      & \sum_{i \notin S} \sum_{j \in S} x_{ij} \ge 1  & S \subseteq V \setminus 0 \tag{5} \\
+      & x_{ij} \ge 0                                                              \tag{6}
+
+Where its value exceeds m times the longest flight, m flights do not serve the turbines. (5) has
+exponentially many rows: :func:`formulations.subtours.violated_sets` finds those that matter.
+"""
+
+from dataclasses import dataclass
+
+import highspy
+import numpy as np
+from numpy.typing import NDArray
+
+from formulations.subtours import Nodes, violated_sets
+
+INF = highspy.kHighsInf
+
+
+@dataclass(frozen=True)
+class FewFlights:
+    """The program without its rows (5).
+
+    Attributes
+    ----------
+    tail, head
+        The ends of each leg that can be flown, shape ``(legs,)``; legs are the columns.
+    """
+
+    model: highspy.Highs
+    tail: NDArray[np.intp]
+    head: NDArray[np.intp]
+
+    def flows(self) -> NDArray[np.float64]:
+        """Return how much flies each leg in the last solution, shape ``(n + 1, n + 1)``."""
+        n = int(self.head.max(initial=0))
+        x = np.zeros((n + 1, n + 1))
+        x[self.tail, self.head] = self.model.getSolution().col_value
+        return x
+
+    def cut(self) -> int:
+        """Add the rows (5) that the last solution violates, and return how many."""
+        sets: list[Nodes] = list(violated_sets(self.flows()))
+        for S in sets:
+            within = np.isin(np.arange(self.head.max() + 1), S)
+            legs = np.flatnonzero(~within[self.tail] & within[self.head]).astype(np.int32)
+            self.model.addRow(1.0, INF, len(legs), legs, np.ones(len(legs)))
+        return len(sets)
+
+
+def few_flights(t: NDArray[np.float64], m: int) -> FewFlights:
+    """Build the program (1)-(4), (6).
+
+    Parameters
+    ----------
+    t
+        Time from i to j, shape ``(n + 1, n + 1)``; ``inf`` where the leg cannot be flown.
+    m
+        Most flights.
+    """
+    n = len(t) - 1
+    model = highspy.Highs()
+    model.silent()
+    tail, head = np.nonzero(np.isfinite(t) & ~np.eye(n + 1, dtype=bool))
+    for leg in t[tail, head]:
+        model.addCol(leg, 0.0, INF, 0, np.array([], np.int32), np.array([]))  # (1), (6)
+    for ends in (head, tail):  # (2) and (3), and (4)
+        for i in range(n + 1):
+            there = np.flatnonzero(ends == i).astype(np.int32)
+            model.addRow(1.0, 1.0 if i else float(m), len(there), there, np.ones(len(there)))
+    return FewFlights(model, tail, head)
