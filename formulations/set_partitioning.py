@@ -27,6 +27,7 @@ flights cannot serve all of S in time [2].
 """
 
 from dataclasses import dataclass, field
+from typing import TypeAlias
 
 import highspy
 import numpy as np
@@ -34,6 +35,8 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csc_array, csr_array
 
 INF = highspy.kHighsInf
+
+Indices: TypeAlias = NDArray[np.int32]
 
 
 @dataclass
@@ -43,26 +46,33 @@ class SetPartitioning:
     Attributes
     ----------
     model
-        Rows in the order (2), (3), (4), (6), (5); those (6) are added before those (5).
+        The rows (2)-(4) come first.
     n, k
         Number of turbines and of stations.
     integer
         Whether (7) holds, or only x >= 0.
-    entries
-        Number of rows (6).
+    subset_rows, entry_rows
+        Which rows are (5) and which (6).
     """
 
     model: highspy.Highs
     n: int
     k: int
     integer: bool
-    entries: int = field(default=0, init=False)
+    subset_rows: Indices = field(default_factory=lambda: np.zeros(0, np.int32))
+    entry_rows: Indices = field(default_factory=lambda: np.zeros(0, np.int32))
 
     @property
-    def first_rows(self) -> tuple[int, int, int]:
-        """The first of the rows (3), (6) and (5)."""
+    def rows(self) -> Indices:
+        """The rows in the order of the equations."""
+        first = np.arange(self.n + self.k + 1, dtype=np.int32)
+        return np.concatenate([first, self.subset_rows, self.entry_rows])
+
+    def by_equation(self, row: ArrayLike) -> list[NDArray[np.float64]]:
+        """Split values of the rows into those of (2), of (3) and (4), of (5) and of (6)."""
         first = self.n + self.k + 1
-        return self.n, first, first + self.entries
+        ends = [self.n, first, first + len(self.subset_rows)]
+        return np.split(np.asarray(row)[self.rows], ends)
 
     def add_flights(self, c: NDArray[np.float64], a: csc_array) -> None:
         """Add one column per flight.
@@ -72,11 +82,11 @@ class SetPartitioning:
         c
             Time of each flight, shape ``(m,)``.
         a
-            Coefficients in all rows, shape ``(rows, m)``.
+            Coefficients in all rows, in the order of the equations, shape ``(rows, m)``.
         """
         before, m = self.model.getNumCol(), len(c)
         upper = np.full(m, 1.0 if self.integer else INF)
-        starts, rows = a.indptr[:-1].astype(np.int32), a.indices.astype(np.int32)
+        starts, rows = a.indptr[:-1].astype(np.int32), self.rows[a.indices]
         self.model.addCols(m, c, np.zeros(m), upper, a.nnz, starts, rows, a.data)  # (1), (7)
         if self.integer:
             kinds = np.full(m, int(highspy.HighsVarType.kInteger), np.uint8)
@@ -86,18 +96,43 @@ class SetPartitioning:
     def add_subset_rows(self, a: csr_array) -> None:
         """Add rows (5) with the coefficients ``a``, shape ``(m, flights)``."""
         m = a.shape[0]
-        self._add_rows(np.full(m, -INF), np.ones(m), a)  # (5)
+        new = self._add_rows(np.full(m, -INF), np.ones(m), a)  # (5)
+        self.subset_rows = np.append(self.subset_rows, new)
 
     def add_entry_rows(self, a: csr_array, need: NDArray[np.float64]) -> None:
         """Add rows (6) with the coefficients ``a``, shape ``(m, flights)``, and right sides."""
-        self._add_rows(need, np.full(len(need), INF), a)  # (6)
-        self.entries += len(need)
+        new = self._add_rows(need, np.full(len(need), INF), a)  # (6)
+        self.entry_rows = np.append(self.entry_rows, new)
+
+    def keep_subset_rows(self, keep: NDArray[np.bool_]) -> None:
+        """Delete the rows (5) where ``keep`` does not hold."""
+        gone, self.subset_rows = self.subset_rows[~keep], self.subset_rows[keep]
+        self._delete_rows(gone)
+
+    def keep_entry_rows(self, keep: NDArray[np.bool_]) -> None:
+        """Delete the rows (6) where ``keep`` does not hold."""
+        gone, self.entry_rows = self.entry_rows[~keep], self.entry_rows[keep]
+        self._delete_rows(gone)
+
+    def _delete_rows(self, gone: Indices) -> None:
+        """Delete rows, and number the others anew."""
+        self.model.deleteRows(len(gone), gone)
+        self.subset_rows = _renumbered(self.subset_rows, gone)
+        self.entry_rows = _renumbered(self.entry_rows, gone)
 
     def _add_rows(
         self, lower: NDArray[np.float64], upper: NDArray[np.float64], a: csr_array
-    ) -> None:
+    ) -> Indices:
+        """Add rows, and return which they are."""
+        before, m = self.model.getNumRow(), len(lower)
         starts, columns = a.indptr[:-1].astype(np.int32), a.indices.astype(np.int32)
-        self.model.addRows(len(lower), lower, upper, a.nnz, starts, columns, a.data)
+        self.model.addRows(m, lower, upper, a.nnz, starts, columns, a.data)
+        return np.arange(before, before + m, dtype=np.int32)
+
+
+def _renumbered(rows: Indices, gone: Indices) -> Indices:
+    """Return the numbers of ``rows`` once the rows ``gone`` are deleted; both increase."""
+    return rows - np.searchsorted(gone, rows).astype(np.int32)
 
 
 def set_partitioning(

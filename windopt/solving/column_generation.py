@@ -25,7 +25,7 @@ from windopt.solving.exact.relaxation import Relaxation
 from windopt.solving.exact.savings import savings
 from windopt.solving.exact.search import Search
 
-EFFORT, MORE = 300_000, 1.5
+EFFORT, MORE = 300_000, 2.0
 """Half flights that the first attempt to list all flights may hold, and the growth of that."""
 NARROWER = 0.75
 """What cuts must make of a gap whose flights were too many, before they are listed again."""

@@ -6,12 +6,12 @@ from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
-from scipy.sparse import csc_array, csr_array, vstack
+from scipy.sparse import csc_array, csr_array, hstack, vstack
 
 from formulations.set_partitioning import SetPartitioning, set_partitioning
 from windopt.solving.exact.clock import Clock
 from windopt.solving.exact.crowded_sets import CrowdedSets
-from windopt.solving.exact.network import Floats, Network
+from windopt.solving.exact.network import Bools, Floats, Network
 from windopt.solving.exact.subset_row_cuts import Column, Cuts, Path
 
 DUAL, PRIMAL = 1, 4
@@ -96,6 +96,7 @@ class Master:
         self.x = np.zeros(0)
         self.value = 0.0
         self._program: SetPartitioning
+        self._strategy = DUAL
         self.rebuild(columns)
 
     @property
@@ -115,20 +116,24 @@ class Master:
     ) -> None:
         """Start anew with ``columns`` and, where given, ``cuts`` and ``crowded``."""
         columns = list(columns)
-        self.cuts = self.cuts if cuts is None else cuts
-        self.crowded = self.crowded if crowded is None else crowded
+        cuts = self.cuts if cuts is None else cuts
+        crowded = self.crowded if crowded is None else crowded
         self._program = set_partitioning(
             self.n, self.counts, integer=False, cover=True, price=self.price
         )
-        self._program.add_entry_rows(self.crowded.left_out, self.crowded.need)
-        self._program.add_subset_rows(csr_array((len(self.cuts), self.n)))
         self.columns, self._known, self.x = [], set(), np.zeros(0)
+        self.cuts, self.crowded = Cuts.none(self.n), CrowdedSets.none(self.n)
+        self.cut(cuts)
+        self.enter(crowded)
         self.add(columns)
 
     def recount(self, counts: Floats) -> None:
         """Change how many flights may be sent."""
         self.counts = counts
-        self.rebuild(self.columns)
+        rows = np.arange(self.n, self.n + len(counts), dtype=np.int32)
+        lower, upper = np.ascontiguousarray(counts.T)
+        self._program.model.changeRowsBounds(len(rows), rows, lower, upper)
+        self._strategy = DUAL
 
     def add(self, columns: Iterable[Column]) -> int:
         """Add the columns that are not there yet, and return how many."""
@@ -141,16 +146,50 @@ class Master:
             cost = np.array([column.cost for column in new])
             self._program.add_flights(cost, self._matrix(new))
             self.columns += new
+            self._strategy = PRIMAL if len(self.x) else DUAL
         return len(new)
 
     def restrict(self, networks: list[Network]) -> None:
         """Drop the columns that fly legs which ``networks`` leave out."""
         self.networks = networks
-        self.rebuild(
-            column
+        flown = (
+            all(networks[column.station].arcs[i, j] for i, j in pairwise(column.path))
             for column in self.columns
-            if all(networks[column.station].arcs[i, j] for i, j in pairwise(column.path))
         )
+        self.keep(np.fromiter(flown, bool))
+
+    def keep(self, keep: Bools) -> None:
+        """Drop the columns where ``keep`` does not hold."""
+        gone = (self.n + np.flatnonzero(~keep)).astype(np.int32)
+        self._program.model.deleteCols(len(gone), gone)
+        self.columns = [self.columns[r] for r in np.flatnonzero(keep)]
+        self._known = {(column.station, column.path) for column in self.columns}
+        self.x = self.x[keep[: len(self.x)]]
+
+    def cut(self, cuts: Cuts) -> None:
+        """Add subset rows."""
+        coefficients = cuts.coefficients([column.path for column in self.columns])
+        self._program.add_subset_rows(csr_array(np.pad(coefficients, ((0, 0), (self.n, 0)))))
+        self.cuts = self.cuts.joined(cuts)
+        self._strategy = DUAL
+
+    def keep_cuts(self, keep: Bools) -> None:
+        """Drop the subset rows where ``keep`` does not hold."""
+        self._program.keep_subset_rows(keep)
+        self.cuts = self.cuts.kept(keep)
+
+    def enter(self, crowded: CrowdedSets) -> None:
+        """Add rows of crowded sets."""
+        entries = crowded.entries([column.path for column in self.columns])
+        coefficients = hstack([crowded.left_out, csr_array(entries)])
+        self._program.add_entry_rows(csr_array(coefficients), crowded.need)
+        self.crowded = self.crowded.joined(crowded)
+        self._strategy = DUAL
+
+    def keep_crowded(self, keep: Bools) -> None:
+        """Drop the rows of crowded sets where ``keep`` does not hold."""
+        self._program.keep_entry_rows(keep)
+        self.crowded = self.crowded.kept(keep)
 
     def _matrix(self, columns: list[Column]) -> csc_array:
         lengths = [len(column.path) for column in columns]
@@ -165,21 +204,19 @@ class Master:
         sent[-1] = 1.0
         paths = [column.path for column in columns]
         entries, cut = self.crowded.entries(paths), self.cuts.coefficients(paths)
-        blocks = (sent, entries, cut)
+        blocks = (sent, cut, entries)
         return csc_array(vstack([visits, *(csc_array(block) for block in blocks)]))
 
     def solve(self, clock: Clock) -> Duals:
         """Solve the relaxation and return its duals."""
         model = self._program.model
-        warm = len(self.x) > 0  # columns leave the last basis feasible
-        model.setOptionValue("simplex_strategy", PRIMAL if warm else DUAL)
+        model.setOptionValue("simplex_strategy", self._strategy)
         clock.run(model)
         solution = model.getSolution()
         values = np.array(solution.col_value)
         self.x = values[self.n :]
         self.value = model.getInfo().objective_function_value
-        dual = np.array(solution.row_dual)
-        pi, sigma, reward, penalty = np.split(dual, self._program.first_rows)
+        pi, sigma, penalty, reward = self._program.by_equation(solution.row_dual)
         pi = np.clip(pi, 0.0, self.price)  # the solver keeps this but for rounding
         reward, penalty = np.maximum(reward, 0.0), np.maximum(-penalty, 0.0)
         return Duals(pi, sigma, penalty, reward, self.crowded)

@@ -140,9 +140,10 @@ class Relaxation:
             hurry = 0
 
     def _drop_dear_columns(self) -> None:
-        """Keep the cheapest columns, the basis among them, and start anew."""
-        cheapest = np.argsort(self.master.reduced_costs(), kind="stable")[:KEPT_COLUMNS]
-        self.master.rebuild([self.master.columns[r] for r in np.sort(cheapest)])
+        """Keep the cheapest columns, the basis among them."""
+        keep = np.zeros(len(self.master.columns), bool)
+        keep[np.argsort(self.master.reduced_costs(), kind="stable")[:KEPT_COLUMNS]] = True
+        self.master.keep(keep)
 
     @property
     def value(self) -> float:
@@ -213,20 +214,19 @@ class Relaxation:
         if self.search.closed:
             return False
         master, before, gap = self.master, self.master.crowded, self.gap
-        duals = master.solve(self.search.clock)  # not priced: others are proved
         flown = [((column.station, column.path), share) for column, share in master.flown()]
         found = self.crowding.lacking(flown)
         if not len(found):
             return False
-        crowded = before.kept(duals.reward > TOLERANCE).joined(found)
-        master.rebuild(master.columns, crowded=crowded)
+        master.keep_crowded(self.duals.reward > TOLERANCE)
+        master.enter(found)
         try:
             self.solve()
         except LabelsOverflow:
             master.rebuild(master.columns, crowded=before)
             self.solve()
             return False
-        self.search.crowded = crowded
+        self.search.crowded = master.crowded
         return gap - self.gap >= ENTERED * gap
 
     def cut(self, most: int) -> bool:
@@ -259,16 +259,14 @@ class Relaxation:
     def _choose_cuts(self) -> bool:
         """Put violated cuts into the master, those that matter together to the flights at hand."""
         master, clock = self.master, self.search.clock
-        for choice in range(CHOICES + 1):
+        for choice in range(CHOICES):
+            found = separate(master.cuts, master.flown())
+            if found is None:
+                return choice > 0
+            master.cut(found)
             duals = master.solve(clock)  # not priced: others are proved
-            cuts = master.cuts.kept(duals.penalty > TOLERANCE)
-            chosen = separate(cuts, master.flown()) if choice < CHOICES else None
-            if chosen is None:
-                break
-            master.rebuild(master.columns, chosen)
-        if choice:
-            master.rebuild(master.columns, cuts)
-        return choice > 0
+            master.keep_cuts(duals.penalty > TOLERANCE)
+        return True
 
     def fix_arcs(self, ceiling: float | None = None, most: int = MOST_LABELS) -> Fixing | None:
         """Drop the legs that no better plan flies.

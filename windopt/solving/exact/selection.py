@@ -49,7 +49,7 @@ class Selection:
         self._program = set_partitioning(n, counts, integer=False, cover=True, price=price)
         none = rows.kept(np.zeros(0, np.intp))
         self._program.add_entry_rows(crowded.left_out, crowded.need)
-        coefficients = flight_rows(self.members, self.station, len(counts), crowded, none)
+        coefficients = flight_rows(self.members, self.station, len(counts), none, crowded)
         self._program.add_flights(np.full(idle, idle_cost), coefficients)
         self._program.add_subset_rows(csr_array((rows.m, n + idle)))
 
@@ -58,7 +58,7 @@ class Selection:
         warm = len(self.members) >= len(self.counts)  # columns leave the last basis feasible
         self._program.model.setOptionValue("simplex_strategy", PRIMAL if warm else DUAL)
         members = pool.members(self.n)
-        coefficients = flight_rows(members, pool.station, len(self.counts), self.crowded, self.rows)
+        coefficients = flight_rows(members, pool.station, len(self.counts), self.rows, self.crowded)
         self._program.add_flights(pool.cost, coefficients)
         self.members = np.vstack([self.members, members])
         self.station = np.concatenate([self.station, pool.station])
@@ -73,9 +73,7 @@ class Selection:
 
     def keep_rows(self, keep: Bools) -> None:
         """Keep these rows; the others must have no price."""
-        first = self._program.first_rows[-1]
-        others = (first + np.flatnonzero(~keep)).astype(np.int32)
-        self._program.model.deleteRows(len(others), others)
+        self._program.keep_subset_rows(keep)
         self.rows = self.rows.kept(keep)
 
     def solve(self, clock: Clock) -> tuple[Duals, Floats]:
@@ -83,8 +81,7 @@ class Selection:
         model = self._program.model
         clock.run(model)
         solution = model.getSolution()
-        dual = np.array(solution.row_dual)
-        pi, sigma, reward, penalty = np.split(dual, self._program.first_rows)
+        pi, sigma, penalty, reward = self._program.by_equation(solution.row_dual)
         pi, reward = np.clip(pi, 0.0, self.price), np.maximum(reward, 0.0)
         duals = Duals(pi, sigma, np.maximum(-penalty, 0.0), reward, self.crowded)
         return duals, np.array(solution.col_value)[self.n :]
@@ -109,7 +106,7 @@ class Selection:
 
 
 def flight_rows(
-    members: Bools, station: Ints, counts: int, crowded: CrowdedSets, rows: Rows
+    members: Bools, station: Ints, counts: int, rows: Rows, crowded: CrowdedSets
 ) -> csc_array:
     """Return the coefficients of flights in all rows of the set-partitioning program.
 
@@ -118,6 +115,6 @@ def flight_rows(
     sent = np.zeros((counts, len(members)))
     sent[station, np.arange(len(members))] = 1.0
     sent[-1] = 1.0
-    entered = crowded.visited(members)
-    blocks = [members.T.astype(float), sent, entered, rows.coefficients(members).T]
+    visits, entered = members.T.astype(float), crowded.visited(members)
+    blocks = [visits, sent, rows.coefficients(members).T, entered]
     return csc_array(vstack([csc_array(block) for block in blocks]))

@@ -99,7 +99,7 @@ def minimise(
     program.add_entry_rows(csr_array(search.crowded.left_out[:, :before]), search.crowded.need)
     program.add_subset_rows(csr_array((rows.m, before)))
     members = pool.members(search.n)
-    coefficients = flight_rows(members, pool.station, len(counts), search.crowded, rows)
+    coefficients = flight_rows(members, pool.station, len(counts), rows, search.crowded)
     program.add_flights(pool.cost, coefficients)
     model.setOptionValue("mip_rel_gap", 0.0)
     model.setOptionValue("mip_abs_gap", CLOSED)

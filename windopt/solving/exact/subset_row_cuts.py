@@ -69,6 +69,13 @@ class Cuts:
         """Return the cuts where ``keep`` holds."""
         return Cuts(self.triples[keep], self.memory[keep])
 
+    def joined(self, other: "Cuts") -> "Cuts":
+        """Return these cuts and others."""
+        return Cuts(
+            np.concatenate([self.triples, other.triples]),
+            np.concatenate([self.memory, other.memory]),
+        )
+
     @cached_property
     def words(self) -> tuple[Words, Words]:
         """Memory and subsets as bits, a row of words per leg and per turbine."""
@@ -178,9 +185,10 @@ def violations(
 
 
 def separate(cuts: Cuts, flown: Sequence[tuple[Column, float]]) -> Cuts | None:
-    """Return ``cuts`` and those that a fractional plan violates, or None where there are none.
+    """Return cuts that a fractional plan violates, or None where there are none.
 
-    Those come first that are violated much for the legs they must remember.
+    Those come first that are violated much for the legs they must remember. One of ``cuts`` that
+    remembers too little is found again, with all that it must remember.
 
     Parameters
     ----------
@@ -202,11 +210,13 @@ def separate(cuts: Cuts, flown: Sequence[tuple[Column, float]]) -> Cuts | None:
         needed = [memory_along(key, paths, n) | known.get(key, nothing) for key in keys]
         legs = np.array([memory.sum() for memory in needed])
         worth = violation[most] / (triples.shape[1] + legs)
-        memories = dict(known)
-        for row in spread(triples[most], worth, n, CUTS, CUTS_EACH):
-            memories[keys[row]] = needed[row]
-        if any((memory != known.get(key, nothing)).any() for key, memory in memories.items()):
-            return Cuts(np.array(list(memories), np.int64), np.array(list(memories.values())))
+        rows = [
+            row
+            for row in spread(triples[most], worth, n, CUTS, CUTS_EACH)
+            if (needed[row] != known.get(keys[row], nothing)).any()
+        ]
+        if rows:
+            return Cuts(triples[most][rows], np.array([needed[row] for row in rows]))
     return None
 
 
