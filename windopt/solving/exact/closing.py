@@ -6,11 +6,11 @@ shrinks, or prove value + delta; and the rows that tighten the program over thes
 a larger delta begins with.
 """
 
-from dataclasses import dataclass
-from math import inf
+from dataclasses import dataclass, field
+from math import inf, log
 
 from windopt.solving.exact.branching import MOST, branch
-from windopt.solving.exact.enumeration import enumerate_flights
+from windopt.solving.exact.enumeration import enumerate_flights, most_flights
 from windopt.solving.exact.fixing import MARGIN, Fixing
 from windopt.solving.exact.local_search import improve
 from windopt.solving.exact.master import Duals
@@ -25,6 +25,10 @@ from windopt.solving.exact.tightening import tighten
 FIRST_PART, LARGER, SMALLER = 0.1, 1.5, 0.5
 """Part of the gap to begin with where the whole is too much, by what it grows, and by what it
 shrinks where even the first is too much."""
+FILLED = 0.7
+"""Part of the room for flights that a list is expected to take."""
+WORTHWHILE = 1.08
+"""Times the part of the gap that is closed which the next list must close to be made."""
 WIDER = 1.5
 """Times a gap that was too wide to list which is not even tried."""
 THOROUGH = 8
@@ -52,6 +56,8 @@ class Closing:
         Part of the gap to begin with where the whole is too much.
     too_wide
         The reduced cost up to which flights were too many last.
+    listed
+        Reduced costs up to which flights were listed one after the other, and how many there were.
     """
 
     relaxation: Relaxation
@@ -61,6 +67,7 @@ class Closing:
     known: tuple[Duals, Rows] | None = None
     part: float = FIRST_PART
     too_wide: float = inf
+    listed: list[tuple[float, int]] = field(default_factory=list)
 
     @property
     def search(self) -> Search:
@@ -88,7 +95,7 @@ class Closing:
         if self.fixing is None:
             return False
         gap = self.search.ceiling - self.fixing.value
-        hopeless = gap > WIDER * self.too_wide
+        hopeless = gap > min(WIDER * self.too_wide, self._affordable(effort))
         if fixed and not hopeless and self._search_within(gap, self.fixing, effort):
             return True
         return in_parts and self._close_parts(self.fixing, effort)
@@ -120,9 +127,14 @@ class Closing:
         Where one is too much after others were not, one between the two is the last.
         """
         search, part, halved = self.search, self.part, False
+        self.listed = []
         while True:
             proved = max(0.0, search.bound - fixing.value)
             delta = proved + part * (search.ceiling - search.bound)
+            affordable = self._affordable(effort)
+            if affordable < WORTHWHILE * proved:
+                return False
+            delta = min(delta, affordable)
             fits = self._search_within(delta, fixing, effort)
             if search.closed or (fits and delta >= search.ceiling - fixing.value):
                 return True
@@ -133,6 +145,18 @@ class Closing:
                 return False
             halved = not fits
             part = min(1.0, LARGER * part) if fits else SMALLER * part
+
+    def _affordable(self, effort: int) -> float:
+        """Return the gap whose flights are expected to take much of the room for flights.
+
+        Each unit more makes flights more by the same factor; a little less, in fact.
+        """
+        if len(self.listed) < 2:
+            return inf
+        (less, few), (more, many) = self.listed[-2:]
+        room = most_flights(self.search.n, effort, self.relaxation.memory)
+        growth = log(many / few) / (more - less)
+        return more + log(FILLED * room / many) / growth if growth > 0 else inf
 
     def _search_within(self, delta: float, fixing: Fixing, effort: int) -> bool:
         """Look for a plan of flights of a reduced cost up to ``delta``, unless they are too many.
@@ -152,6 +176,7 @@ class Closing:
             search.note("too many flights within %.3f of %.3f", delta, fixing.value)
             return False
         search.note("%d flights within %.3f of %.3f", len(pool), delta, fixing.value)
+        self.listed.append((delta, max(1, len(pool))))
         self._require_plan(pool, fixing, delta)
         self._choose(pool, fixing, delta)
         return True

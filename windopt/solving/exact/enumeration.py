@@ -73,11 +73,17 @@ def enumerate_flights(
     return _pool(sets, count, trees)
 
 
+def most_flights(n: int, effort: int, memory: float) -> int:
+    """Return how many flights may be listed, over n turbines."""
+    words = (n + 63) // 64
+    return min(JOINED * effort, int(FLIGHTS_SHARE * memory / (60 + 16 * words + n / 4)))
+
+
 def _empty_sets(n: int, cuts: int, effort: int, memory: float) -> tuple[Sets, int]:
     """Make room for flights, and return the half flights of one side there may be."""
     words = (n + 63) // 64
     halves = min(effort, int(HALVES_SHARE * memory / (2 * (48 + 8 * (words + cuts)))))
-    rows = 1 + min(JOINED * effort, int(FLIGHTS_SHARE * memory / (60 + 16 * words + n / 4)))
+    rows = 1 + most_flights(n, effort, memory)
     station, ahead, behind = (np.empty(rows, np.int32) for _ in range(3))
     return Sets(np.empty(rows), station, ahead, behind, np.empty((rows, words), np.uint64)), halves
 
