@@ -59,8 +59,11 @@ class SetPartitioning:
     n: int
     k: int
     integer: bool
-    subset_rows: Indices = field(default_factory=lambda: np.zeros(0, np.int32))
-    entry_rows: Indices = field(default_factory=lambda: np.zeros(0, np.int32))
+    subset_rows: Indices = field(init=False)
+    entry_rows: Indices = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.subset_rows = self.entry_rows = np.zeros(0, np.int32)
 
     @property
     def rows(self) -> Indices:

@@ -6,7 +6,7 @@ shrinks, or prove value + delta; and the rows that tighten the program over thes
 a larger delta begins with.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from math import inf, log
 
 from windopt.solving.exact.branching import MOST, branch
@@ -67,7 +67,7 @@ class Closing:
     known: tuple[Duals, Rows] | None = None
     part: float = FIRST_PART
     too_wide: float = inf
-    listed: list[tuple[float, int]] = field(default_factory=list)
+    listed: tuple[tuple[float, int], ...] = ()
 
     @property
     def search(self) -> Search:
@@ -127,7 +127,7 @@ class Closing:
         Where one is too much after others were not, one between the two is the last.
         """
         search, part, halved = self.search, self.part, False
-        self.listed = []
+        self.listed = ()
         while True:
             proved = max(0.0, search.bound - fixing.value)
             delta = proved + part * (search.ceiling - search.bound)
@@ -176,7 +176,7 @@ class Closing:
             search.note("too many flights within %.3f of %.3f", delta, fixing.value)
             return False
         search.note("%d flights within %.3f of %.3f", len(pool), delta, fixing.value)
-        self.listed.append((delta, max(1, len(pool))))
+        self.listed += ((delta, max(1, len(pool))),)
         self._require_plan(pool, fixing, delta)
         self._choose(pool, fixing, delta)
         return True
