@@ -14,6 +14,8 @@ how much of the flights goes from i to j, and :math:`m` how many flights there m
 
 Where its value exceeds m times the longest flight, m flights do not serve the turbines. (5) has
 exponentially many rows: :func:`formulations.subtours.violated_sets` finds those that matter.
+Unlike :mod:`formulations.one_flight`, which tries the orders of few turbines, this leaves some
+questions open, but it answers for dozens of turbines, and for several flights.
 """
 
 from dataclasses import dataclass
@@ -33,18 +35,20 @@ class FewFlights:
 
     Attributes
     ----------
+    n
+        Number of turbines.
     tail, head
         The ends of each leg that can be flown, shape ``(legs,)``; legs are the columns.
     """
 
     model: highspy.Highs
+    n: int
     tail: NDArray[np.intp]
     head: NDArray[np.intp]
 
     def flows(self) -> NDArray[np.float64]:
         """Return how much flies each leg in the last solution, shape ``(n + 1, n + 1)``."""
-        n = int(self.head.max(initial=0))
-        x = np.zeros((n + 1, n + 1))
+        x = np.zeros((self.n + 1, self.n + 1))
         x[self.tail, self.head] = self.model.getSolution().col_value
         return x
 
@@ -52,7 +56,7 @@ class FewFlights:
         """Add the rows (5) that the last solution violates, and return how many."""
         sets: list[Nodes] = list(violated_sets(self.flows()))
         for S in sets:
-            within = np.isin(np.arange(self.head.max() + 1), S)
+            within = np.isin(np.arange(self.n + 1), S)
             legs = np.flatnonzero(~within[self.tail] & within[self.head]).astype(np.int32)
             self.model.addRow(1.0, INF, len(legs), legs, np.ones(len(legs)))
         return len(sets)
@@ -64,7 +68,8 @@ def few_flights(t: NDArray[np.float64], m: int) -> FewFlights:
     Parameters
     ----------
     t
-        Time from i to j, shape ``(n + 1, n + 1)``; ``inf`` where the leg cannot be flown.
+        Least time from i to j by any way, shape ``(n + 1, n + 1)``, since flights may call at other
+        turbines as well; ``inf`` where there is none, which may leave the program infeasible.
     m
         Most flights.
     """
@@ -78,4 +83,4 @@ def few_flights(t: NDArray[np.float64], m: int) -> FewFlights:
         for i in range(n + 1):
             there = np.flatnonzero(ends == i).astype(np.int32)
             model.addRow(1.0, 1.0 if i else float(m), len(there), there, np.ones(len(there)))
-    return FewFlights(model, tail, head)
+    return FewFlights(model, n, tail, head)

@@ -12,7 +12,8 @@ whether turbine i is left out at a price :math:`p_i`.
       & l_0 \le \sum_r x_r \le u_0                                                  \tag{4} \\
       & \sum_r \Bigl\lfloor \tfrac12 \sum_{i \in S} a_{ir} \Bigr\rfloor x_r \le 1
         & |S| = 3                                                                   \tag{5} \\
-      & \sum_r e_{rS} x_r \ge \kappa(S) & S \text{ needs } \kappa(S) \text{ flights}  \tag{6} \\
+      & \sum_r e_{rS} x_r + \kappa(S) \sum_{i \in S} y_i \ge \kappa(S)
+        & S \text{ needs } \kappa(S) \text{ flights}                                 \tag{6} \\
       & x_r, y_i \in \{0, 1\}                                                       \tag{7}
 
 Where flights obey the triangle inequality (2) may read :math:`\ge 1`, and its relaxation is then
@@ -41,7 +42,7 @@ Indices: TypeAlias = NDArray[np.int32]
 
 @dataclass
 class SetPartitioning:
-    """The program of the flights added so far.
+    """The program of the flights added so far, to which rows come and from which they go.
 
     Attributes
     ----------
@@ -103,7 +104,7 @@ class SetPartitioning:
         self.subset_rows = np.append(self.subset_rows, new)
 
     def add_entry_rows(self, a: csr_array, need: NDArray[np.float64]) -> None:
-        """Add rows (6) with the coefficients ``a``, shape ``(m, flights)``, and right sides."""
+        """Add rows (6) with the coefficients ``a``, shape ``(m, columns)``, and right sides."""
         new = self._add_rows(need, np.full(len(need), INF), a)  # (6)
         self.entry_rows = np.append(self.entry_rows, new)
 

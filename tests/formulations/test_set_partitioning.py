@@ -41,7 +41,9 @@ def solved(t, t_max, counts=FREE, rows=(), crowded=(), **options):
     n = len(t) - 1
     program = set_partitioning(n, counts, **options)
     before = program.model.getNumCol()
-    program.add_entry_rows(csr_array((len(crowded), before)), np.full(len(crowded), 2.0))
+    left_out = [[2.0 * (i in row) for i in range(1, before + 1)] for row in crowded]
+    left_out = csr_array(np.reshape(left_out, (len(crowded), before)))
+    program.add_entry_rows(left_out, np.full(len(crowded), 2.0))
     program.add_subset_rows(csr_array((len(rows), before)))
     visits = np.array([[i in flight for flight in flights] for i in range(1, n + 1)], float)
     entered = [[bool(set(row) & set(flight)) for flight in flights] for row in crowded]
@@ -88,7 +90,7 @@ def test_two_flights_enter_a_set_that_one_cannot_serve():
     whole = solved(t, 4.0)
     assert solved(t, 4.0, crowded=[(1, 2, 3)], integer=False) == pytest.approx(whole)
     left_out = solved(t, 4.0, crowded=[(1, 2, 3)], integer=False, price=1e-3)
-    assert left_out >= 2e-3  # the row asks for two flights, whatever is left out
+    assert left_out == pytest.approx(3e-3)
 
 
 def test_the_relaxation_never_exceeds_the_optimum():

@@ -45,7 +45,7 @@ def test_what_legs_are_granted_is_what_entries_earn():
     rng = np.random.default_rng(0)
     crowded = CrowdedSets(rng.random((5, 8)) < 0.4, np.full(5, 2.0))
     reward = np.append(rng.uniform(0, 10, 4), 0.0)
-    grant = crowded.entered(reward)
+    grant = crowded.grants(reward)
     for _ in range(20):
         path = tuple(rng.integers(0, 8, int(rng.integers(1, 6))).tolist())
         legs = sum(grant[i, j] for i, j in pairwise((8, *path, 8)))
@@ -88,9 +88,9 @@ def test_sets_are_found_into_which_fewer_flights_are_sent_than_they_need():
     allowed = np.ones((1, n), bool)
     instance = RoutingInstance(t, np.array([300.0]), places[:1], places, np.zeros(2), allowed)
     with Clock(60.0) as clock:
-        crowding = Crowding.of(networks(instance)[0], np.ones(n, bool), clock)
-        found = crowding.lacking([((0, (0, 1, 2)), 1.0), ((0, (3, 4, 5)), 1.0)])
-        enough = crowding.lacking([((0, pair), 1.0) for pair in [(0, 1), (2, 3), (4, 5)]])
+        known = Crowding.of(networks(instance)[0], np.ones(n, bool), clock)
+        found = known.lacking([((0, (0, 1, 2)), 1.0), ((0, (3, 4, 5)), 1.0)])
+        enough = known.lacking([((0, pair), 1.0) for pair in [(0, 1), (2, 3), (4, 5)]])
     needed = {(0, 1, 2): 2.0, (3, 4, 5): 2.0}
     each = zip(found.sets, found.need, strict=True)
     assert {tuple(np.flatnonzero(inside).tolist()): need for inside, need in each} == needed

@@ -168,7 +168,7 @@ def _violated(flown: Flown) -> Triples:
 
 
 def as_round(duals: Duals, triples: Triples, counts: Floats, unit: float) -> Round:
-    """Return duals as a round, in seconds.
+    """Return duals, which must not be of crowded sets, as a round, in seconds.
 
     Parameters
     ----------

@@ -26,9 +26,10 @@ FIRST_PART, LARGER, SMALLER = 0.1, 1.5, 0.5
 """Part of the gap to begin with where the whole is too much, by what it grows, and by what it
 shrinks where even the first is too much."""
 FILLED = 0.7
-"""Part of the room for flights that a list is expected to take."""
+"""Part of the room for flights that the longest list is expected to take."""
 WORTHWHILE = 1.08
-"""Times the part of the gap that is closed which the next list must close to be made."""
+"""A further list is made only where one is expected to fit that goes this many times as far as is
+proved, or all the way."""
 WIDER = 1.5
 """Times a gap that was too wide to list which is not even tried."""
 THOROUGH = 8
@@ -57,7 +58,8 @@ class Closing:
     too_wide
         The reduced cost up to which flights were too many last.
     listed
-        Reduced costs up to which flights were listed one after the other, and how many there were.
+        Reduced costs up to which flights were listed since parts of the gap were last begun with,
+        and how many there were.
     """
 
     relaxation: Relaxation
@@ -126,37 +128,40 @@ class Closing:
 
         Where one is too much after others were not, one between the two is the last.
         """
-        search, part, halved = self.search, self.part, False
+        search, part, failed = self.search, self.part, inf
         self.listed = ()
         while True:
-            proved = max(0.0, search.bound - fixing.value)
-            delta = proved + part * (search.ceiling - search.bound)
+            proved, whole = max(0.0, search.bound - fixing.value), search.ceiling - fixing.value
             affordable = self._affordable(effort)
-            if affordable < WORTHWHILE * proved:
+            if affordable < min(WORTHWHILE * proved, whole):
                 return False
-            delta = min(delta, affordable)
+            wanted = proved + part * (search.ceiling - search.bound)
+            delta = min(wanted, proved + SMALLER * (failed - proved), affordable)
             fits = self._search_within(delta, fixing, effort)
             if search.closed or (fits and delta >= search.ceiling - fixing.value):
                 return True
             if not fits and part == self.part:
                 self.part *= SMALLER
                 return False
-            if halved:
+            if failed < inf:
                 return False
-            halved = not fits
-            part = min(1.0, LARGER * part) if fits else SMALLER * part
+            part = min(1.0, LARGER * part)
+            failed = inf if fits else delta
 
     def _affordable(self, effort: int) -> float:
         """Return the gap whose flights are expected to take much of the room for flights.
 
-        Each unit more makes flights more by the same factor; a little less, in fact.
+        Each unit more makes flights more by the same factor, as the last two lists tell; a little
+        less, in fact. No gap that was listed is too much.
         """
         if len(self.listed) < 2:
             return inf
         (less, few), (more, many) = self.listed[-2:]
-        room = most_flights(self.search.n, effort, self.relaxation.memory)
+        if not (more > less and many > few):
+            return inf
         growth = log(many / few) / (more - less)
-        return more + log(FILLED * room / many) / growth if growth > 0 else inf
+        room = most_flights(self.search.n, effort, self.relaxation.memory)
+        return max(more, more + log(FILLED * room / many) / growth)
 
     def _search_within(self, delta: float, fixing: Fixing, effort: int) -> bool:
         """Look for a plan of flights of a reduced cost up to ``delta``, unless they are too many.

@@ -76,7 +76,7 @@ class CrowdedSets:
         common = self.sets.astype(np.float32) @ members.T.astype(np.float32)
         return (common > 0.5).astype(float)
 
-    def entered(self, reward: Floats) -> Floats:
+    def grants(self, reward: Floats) -> Floats:
         """Return the rewards of the sets that each leg enters, shape ``(n + 1, n + 1)``.
 
         Parameters

@@ -8,6 +8,7 @@ a minimum cut is the one into which least flies.
 from dataclasses import dataclass, field
 from itertools import pairwise
 
+import highspy
 import numpy as np
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import maximum_flow, shortest_path
@@ -20,6 +21,7 @@ from windopt.solving.exact.grown_sets import Flow, grown_sets
 from windopt.solving.exact.network import SLACK, Bools, Floats, Network
 from windopt.solving.exact.search import Flight
 from windopt.solving.exact.tours import FAR
+from windopt.solving.rows import rows
 
 SURELY = 1e-3
 """What few flights must exceed their time by, for the rounding of linear programs."""
@@ -45,9 +47,11 @@ class Crowding:
     longest
         How long they last at most.
     usable
-        Turbines that must be visited, shape ``(n,)``.
+        Turbines that must be visited, shape ``(n,)``; sets have no others.
     proved, refuted
         Sets known to need so many flights, and sets of which that could not be proved.
+    rounds
+        How often plans were looked at, which seeds the search for sets.
     """
 
     t: Floats
@@ -128,10 +132,23 @@ class Crowding:
         enough = flights * (self.longest + SLACK) + SURELY
         while True:
             self.clock.run(program.model)
-            if program.model.getInfo().objective_function_value > enough:
+            if _proved(program.model) > enough:
                 return True
             if not program.cut():
                 return False
+
+
+def _proved(model: highspy.Highs) -> float:
+    """Return the bound that the duals of a program prove, whatever rounding they bear.
+
+    Its variables are at most 1 in some solution.
+    """
+    lp = model.getLp()
+    given, cost = rows(lp), np.array(lp.col_cost_)
+    dual = np.array(model.getSolution().row_dual)
+    dual = np.where((dual < 0.0) & np.isinf(given.row_upper), 0.0, dual)
+    sides = np.where(dual > 0.0, given.row_lower, np.where(dual < 0.0, given.row_upper, 0.0))
+    return float(dual @ sides + np.minimum(cost - given.A.T @ dual, 0.0).sum())
 
 
 def _by_any_way(legs: Floats) -> Floats:

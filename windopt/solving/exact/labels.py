@@ -1,8 +1,8 @@
 """Labels: what is kept of partial flights, and of prices and neighbourhoods to make them.
 
-A label ends at a turbine and remembers its time T, its reduced cost C = T - sum of duals, the
-turbines V it may not visit next (a subset of the last turbine's neighbourhood) and the parities
-S of the subset-row cuts. :mod:`windopt.solving.exact.labelling` makes them.
+A label ends at a turbine and remembers its time T, its cost C (that of its legs less the rewards of
+its turbines), the turbines V it may not visit next (a subset of the last turbine's neighbourhood)
+and the parities S of the subset-row cuts. :mod:`windopt.solving.exact.labelling` makes them.
 """
 
 from typing import NamedTuple

@@ -47,7 +47,7 @@ class Duals:
     @cached_property
     def grant(self) -> Floats:
         """What crowded sets grant for flying each leg, the station last; ``(n + 1, n + 1)``."""
-        return self.crowded.entered(self.reward)
+        return self.crowded.grants(self.reward)
 
     @property
     def toll(self) -> Floats:
@@ -74,8 +74,6 @@ class Master:
         Least and largest number of flights of each station, and of all, shape ``(k + 1, 2)``.
     prize
         Cost of leaving each turbine out, infinite where it must be inspected; shape ``(n,)``.
-    columns
-        Flights to start from.
     """
 
     def __init__(
@@ -83,7 +81,6 @@ class Master:
         networks: list[Network],
         counts: Floats,
         prize: Floats,
-        columns: Iterable[Column] = (),
     ) -> None:
         self.networks = networks
         self.counts = counts
@@ -97,7 +94,7 @@ class Master:
         self.value = 0.0
         self._program: SetPartitioning
         self._strategy = DUAL
-        self.rebuild(columns)
+        self.rebuild(())
 
     @property
     def n(self) -> int:

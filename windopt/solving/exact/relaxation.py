@@ -1,6 +1,8 @@
 """Column generation: the master over the flights at hand, and pricing for those that it lacks."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from functools import partial
 from math import ceil
 
 import numpy as np
@@ -51,7 +53,7 @@ class Relaxation:
     crowding
         What is known of how many flights turbines need.
     overfull
-        Whether cuts have made more labels than they are worth, so that no more are added.
+        Whether rows have made more labels than they are worth, so that no more are added.
     """
 
     search: Search
@@ -176,7 +178,7 @@ class Relaxation:
         if grown.sets == before.sets:
             return False
         self.pricer = replace(self.pricer, neighbourhoods=grown)
-        self.master.rebuild([column for column in self.master.columns if grown.admit(column.path)])
+        self.master.keep(np.array([grown.admit(column.path) for column in self.master.columns]))
         try:
             self.solve()
         except LabelsOverflow:
@@ -197,12 +199,31 @@ class Relaxation:
             return False
         before = self.counts
         self._recount(np.vstack([before[:-1], [least, before[-1, 1]]]))
+        return self._solved_or(partial(self._recount, before), self._most)
+
+    @property
+    def _most(self) -> int:
+        """Labels of one side of one station to make at most: fewer where they know of cuts."""
+        return WORTH if len(self.master.cuts) else MOST_LABELS
+
+    def _solved_or(self, undo: Callable[[], None], most: int) -> bool:
+        """Solve after a change of the master, or undo it where it makes more labels than ``most``.
+
+        Returns
+        -------
+        Whether the change stays; if not, what was proved before it is known still.
+        """
+        pricer, proved = self.pricer, (self.duals, self.least)
+        self.pricer = replace(pricer, most=most)
         try:
             self.solve()
         except LabelsOverflow:
-            self._recount(before)
-            self.solve()
+            undo()
+            self.master.solve(self.search.clock)  # not priced: the duals before are proved
+            (self.duals, self.least), self.overfull = proved, True
             return False
+        finally:
+            self.pricer = pricer
         return True
 
     def _recount(self, counts: Floats) -> None:
@@ -211,7 +232,7 @@ class Relaxation:
 
     def enter_crowded_sets(self) -> bool:
         """Send as many flights into turbines as these need, and tell whether to go on with that."""
-        if self.search.closed:
+        if self.search.closed or self.overfull:
             return False
         master, before, gap = self.master, self.master.crowded, self.gap
         flown = [((column.station, column.path), share) for column, share in master.flown()]
@@ -220,11 +241,8 @@ class Relaxation:
             return False
         master.keep_crowded(self.duals.reward > TOLERANCE)
         master.enter(found)
-        try:
-            self.solve()
-        except LabelsOverflow:
-            master.rebuild(master.columns, crowded=before)
-            self.solve()
+        undo = partial(master.rebuild, master.columns, crowded=before)
+        if not self._solved_or(undo, self._most):
             return False
         self.search.crowded = master.crowded
         return gap - self.gap >= ENTERED * gap
@@ -245,16 +263,9 @@ class Relaxation:
         before, gap = self.master.cuts, self.gap
         if not self._choose_cuts():
             return False
-        pricer, self.pricer = self.pricer, replace(self.pricer, most=min(most, WORTH))
-        try:
-            self.solve()
-        except LabelsOverflow:
-            self.pricer, self.overfull = pricer, True
-            self.master.rebuild(self.master.columns, before)
-            self.solve()
-            return False
-        self.pricer = pricer
-        return gap - self.gap >= HELPFUL * gap
+        undo = partial(self.master.rebuild, self.master.columns, before)
+        solved = self._solved_or(undo, min(most, WORTH))
+        return solved and gap - self.gap >= HELPFUL * gap
 
     def _choose_cuts(self) -> bool:
         """Put violated cuts into the master, those that matter together to the flights at hand."""

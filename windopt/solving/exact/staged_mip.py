@@ -25,9 +25,11 @@ SIZES = (2500, 5000)
 LITTLE_MORE = 1.3
 LARGER = 2
 """What each stage is of the one before it, where they go on to the end."""
-NODES, PATIENCE, LEAST_PATIENCE = 300, 0.1, 5.0
-"""Nodes after which HiGHS leaves the rest to branching, which adds rows in each node; and the part
-of the time so far, and time [s], after which it does if it has not come so far."""
+NODES = 300
+"""Nodes after which HiGHS leaves the rest to branching, which adds rows in each node."""
+PATIENCE, LEAST_PATIENCE = 0.1, 5.0
+"""Part of the time so far that HiGHS gets for them, and the least [s]; so that branching depends on
+the machine where HiGHS is long over its root."""
 
 
 def staged_mip(
