@@ -1,19 +1,20 @@
-r"""How little time a set of turbines takes where few flights serve it: a relaxation.
+r"""By how much few flights that serve a set of turbines last too long: a relaxation.
 
 Nodes :math:`V = \{0, \dots, n\}` are all stations, merged, and the turbines; :math:`x_{ij}` tells
-how much of the flights goes from i to j, and :math:`m` how many flights there may be.
+how much of the flights goes from i to j, and :math:`m` how many flights there may be, of
+:math:`t^{\max}` each.
 
 .. math::
 
-    \min_x \quad & \sum_{ij} t_{ij} x_{ij}                                       \tag{1} \\
+    \min_x \quad & \sum_{ij} t_{ij} x_{ij} - t^{\max} \sum_j x_{0j}              \tag{1} \\
     \text{s.t.} \quad & \sum_i x_{ij} = 1              & j \in V \setminus 0       \tag{2} \\
       & \sum_j x_{ij} = 1                              & i \in V \setminus 0       \tag{3} \\
       & 1 \le \sum_j x_{0j} \le m                                                 \tag{4} \\
       & \sum_{i \notin S} \sum_{j \in S} x_{ij} \ge 1  & S \subseteq V \setminus 0 \tag{5} \\
       & x_{ij} \ge 0                                                              \tag{6}
 
-Where its value exceeds m times the longest flight, m flights do not serve the turbines. (5) has
-exponentially many rows: :func:`formulations.subtours.violated_sets` finds those that matter.
+Where its value is positive, m flights do not serve the turbines. (5) has exponentially many rows:
+:func:`formulations.subtours.violated_sets` finds those that matter.
 Unlike :mod:`formulations.one_flight`, which tries the orders of few turbines, this leaves some
 questions open, but it answers for dozens of turbines, and for several flights.
 """
@@ -62,7 +63,7 @@ class FewFlights:
         return len(sets)
 
 
-def few_flights(t: NDArray[np.float64], m: int) -> FewFlights:
+def few_flights(t: NDArray[np.float64], t_max: float, m: int) -> FewFlights:
     """Build the program (1)-(4), (6).
 
     Parameters
@@ -70,6 +71,8 @@ def few_flights(t: NDArray[np.float64], m: int) -> FewFlights:
     t
         Least time from i to j by any way, shape ``(n + 1, n + 1)``, since flights may call at other
         turbines as well; ``inf`` where there is none, which may leave the program infeasible.
+    t_max
+        Longest flight.
     m
         Most flights.
     """
@@ -77,8 +80,8 @@ def few_flights(t: NDArray[np.float64], m: int) -> FewFlights:
     model = highspy.Highs()
     model.silent()
     tail, head = np.nonzero(np.isfinite(t) & ~np.eye(n + 1, dtype=bool))
-    for leg in t[tail, head]:
-        model.addCol(leg, 0.0, INF, 0, np.array([], np.int32), np.array([]))  # (1), (6)
+    for cost in t[tail, head] - np.where(tail == 0, t_max, 0.0):
+        model.addCol(cost, 0.0, INF, 0, np.array([], np.int32), np.array([]))  # (1), (6)
     for ends in (head, tail):  # (2) and (3), and (4)
         for i in range(n + 1):
             there = np.flatnonzero(ends == i).astype(np.int32)

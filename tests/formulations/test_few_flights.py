@@ -1,4 +1,4 @@
-"""How little time few flights take, against every way to fly them."""
+"""By how much few flights last too long, against every way to fly them."""
 
 from itertools import pairwise, permutations
 
@@ -15,8 +15,8 @@ def least_time(t, m):
     return min(sum(t[i, j] for i, j in pairwise((0, *way, 0))) for way in set(permutations(stops)))
 
 
-def bound(t, m):
-    program = few_flights(t, m)
+def bound(t, m, t_max=0.0):
+    program = few_flights(t, t_max, m)
     program.model.run()
     while program.cut():
         program.model.run()
@@ -35,6 +35,12 @@ def test_no_few_flights_take_less(seed, m):
     assert value >= 0.9 * least_time(t, m)
     assert x[0].sum() <= m + 1e-6
     assert x.sum(axis=0)[1:] == pytest.approx(1.0)
+
+
+def test_one_flight_too_long_is_told_from_two_that_are_not():
+    t = np.full((6, 6), 100.0)
+    for t_max, excess in [(300.0, 100.0), (310.0, 80.0), (350.0, 0.0), (360.0, -20.0)]:
+        assert bound(t, 2, t_max)[0] == pytest.approx(excess)  # 700 s, or 600 s on one flight
 
 
 def test_turbines_far_from_each_other_take_two_ways_out():

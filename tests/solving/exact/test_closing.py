@@ -1,5 +1,8 @@
 """Closing the gap in parts."""
 
+from types import SimpleNamespace
+
+import numpy as np
 import pytest
 
 from windopt.result import Status
@@ -37,6 +40,15 @@ def test_parts_of_the_gap_prove_the_same_optimum(small, refused, seed):
     assert result.objective == pytest.approx(small.optimum(instance), rel=1e-9)
     assert result.status is Status.OPTIMAL
     assert refused
+
+
+def test_the_next_list_is_expected_to_grow_like_the_last():
+    known = closing.Closing(SimpleNamespace(search=SimpleNamespace(n=50), memory=4e9), 0)
+    assert known._affordable(1_000_000) == np.inf
+    known.listed = ((10.0, 1000), (12.0, 2000))
+    doublings = np.log2(closing.FILLED * closing.most_flights(50, 1_000_000, 4e9) / 2000)
+    assert known._affordable(1_000_000) == pytest.approx(12.0 + 2.0 * doublings)
+    assert known._affordable(1) == 12.0
 
 
 def test_cuts_that_make_too_many_labels_leave_what_was_known_before(small, refused, monkeypatch):

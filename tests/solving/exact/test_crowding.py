@@ -1,5 +1,6 @@
 """Which turbines need several flights, against all plans of small farms."""
 
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -13,6 +14,7 @@ from windopt.solving.exact.clock import Clock
 from windopt.solving.exact.crowded_sets import CrowdedSets
 from windopt.solving.exact.crowding import Crowding
 from windopt.solving.exact.network import networks
+from windopt.solving.exact.pricing import Pricer
 from windopt.solving.exact.relaxation import Relaxation
 from windopt.solving.exact.search import Search, alone
 
@@ -82,19 +84,51 @@ def test_sets_proved_crowded_need_as_many_flights(seed, small, monkeypatch):
         assert fewest_flights(small, instance, inside) >= need
 
 
-def test_sets_are_found_into_which_fewer_flights_are_sent_than_they_need():
-    n = 6
-    t, places = np.full((1, n + 1, n + 1), 100.0), np.zeros((n, 2))  # two turbines fit a flight
+def two_a_flight(n):
+    """Return a farm of turbines as far from each other as from the station; two fit a flight."""
+    t, places = np.full((1, n + 1, n + 1), 100.0), np.zeros((n, 2))
     allowed = np.ones((1, n), bool)
-    instance = RoutingInstance(t, np.array([300.0]), places[:1], places, np.zeros(2), allowed)
+    return RoutingInstance(t, np.array([310.0]), places[:1], places, np.zeros(2), allowed)
+
+
+def lacking(n, *paths):
+    """Return the sets that need more flights than ``paths``, and how many."""
     with Clock(60.0) as clock:
-        known = Crowding.of(networks(instance)[0], np.ones(n, bool), clock)
-        found = known.lacking([((0, (0, 1, 2)), 1.0), ((0, (3, 4, 5)), 1.0)])
-        enough = known.lacking([((0, pair), 1.0) for pair in [(0, 1), (2, 3), (4, 5)]])
-    needed = {(0, 1, 2): 2.0, (3, 4, 5): 2.0}
+        known = Crowding.of(networks(two_a_flight(n))[0], np.ones(n, bool), clock)
+        found = known.lacking([((0, path), 1.0) for path in paths])
     each = zip(found.sets, found.need, strict=True)
-    assert {tuple(np.flatnonzero(inside).tolist()): need for inside, need in each} == needed
-    assert len(enough) == 0
+    return {tuple(np.flatnonzero(inside).tolist()): need for inside, need in each}
+
+
+def test_sets_are_found_into_which_fewer_flights_are_sent_than_they_need():
+    assert lacking(6, (0, 1, 2), (3, 4, 5)) == {(0, 1, 2): 2.0, (3, 4, 5): 2.0}
+    assert lacking(6, (0, 1), (2, 3), (4, 5)) == {}
+
+
+def test_a_set_may_need_more_than_two_flights():
+    assert lacking(5, (0, 1, 2, 3, 4))[0, 1, 2, 3, 4] == 3.0
+
+
+def test_turbines_that_may_be_left_out_are_in_no_set(small):
+    instance = small.random_instance(SEEDS[0])
+    prize = np.full(len(instance.turbines), 1e5)
+    with Clock(60.0) as clock:
+        relaxation = relaxed(replace(instance, prize=prize), clock)
+        assert not relaxation.enter_crowded_sets()
+    assert len(relaxation.crowding.proved) == 0
+
+
+def test_rows_that_overflow_are_taken_back_and_what_was_proved_stays(small, monkeypatch):
+    with Clock(60.0) as clock:
+        relaxation = relaxed(small.random_instance(SEEDS[0]), clock)
+        master, duals, value = relaxation.master, relaxation.duals, relaxation.value
+        monkeypatch.setattr(Pricer, "capacity", lambda *_: 1 if len(master.crowded) else 10**5)
+        assert not relaxation.enter_crowded_sets()
+        assert not relaxation.enter_crowded_sets()
+    assert relaxation.duals is duals
+    assert relaxation.value == value
+    assert relaxation.crowding.rounds == 1
+    assert len(master.crowded) == len(relaxation.search.crowded) == 0
 
 
 @pytest.mark.parametrize("seed", SEEDS)

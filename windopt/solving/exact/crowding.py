@@ -24,7 +24,7 @@ from windopt.solving.exact.tours import FAR
 from windopt.solving.rows import rows
 
 SURELY = 1e-3
-"""What few flights must exceed their time by, for the rounding of linear programs."""
+"""By how much few flights must last too long, for the rounding of linear programs."""
 PROOFS = 12
 """Sets to try to prove crowded, at most, before rows are added."""
 ROWS = 15
@@ -128,11 +128,10 @@ class Crowding:
     def _fewer_do_not_do(self, inside: Bools, flights: int) -> bool:
         """Prove that ``flights`` do not serve the turbines ``inside``, or fail to."""
         nodes = np.append(len(inside), np.flatnonzero(inside))  # the station first
-        program = few_flights(self.t[np.ix_(nodes, nodes)], flights)
-        enough = flights * (self.longest + SLACK) + SURELY
+        program = few_flights(self.t[np.ix_(nodes, nodes)], self.longest + SLACK, flights)
         while True:
             self.clock.run(program.model)
-            if _proved(program.model) > enough:
+            if _proved(program.model) > SURELY:
                 return True
             if not program.cut():
                 return False
@@ -141,7 +140,7 @@ class Crowding:
 def _proved(model: highspy.Highs) -> float:
     """Return the bound that the duals of a program prove, whatever rounding they bear.
 
-    Its variables are at most 1 in some solution.
+    No leg is flown more than once: its turbine is visited but once.
     """
     lp = model.getLp()
     given, cost = rows(lp), np.array(lp.col_cost_)
