@@ -121,7 +121,7 @@ def _prove(search: Search, memory: float, seed: int) -> None:
     search.lp_bound = search.bound
     while relaxation.grow_neighbourhoods() or relaxation.round_flights():
         pass
-    rounded = relaxation.rounded()
+    rounded = relaxation.master.rounded()
     improve(search, seed + 1, start=rounded)
     closing, effort = Closing(relaxation, seed + 2), float(EFFORT)
     narrowing, listed = True, relaxation.gap
@@ -133,7 +133,7 @@ def _prove(search: Search, memory: float, seed: int) -> None:
         anew = attempt % 2 == 0
         improve(search, seed + 2 + attempt, THOROUGH * attempt, None if anew else rounded)
         narrowing = _narrow(closing, int(effort))
-        rounded = relaxation.rounded()
+        rounded = relaxation.master.rounded()
         effort = min(MORE * effort, memory)  # a half flight takes more than a byte
 
 

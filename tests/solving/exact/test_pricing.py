@@ -117,7 +117,7 @@ def test_as_many_flights_are_sent_as_the_bound_takes(setting):
 def test_flights_rounded_from_the_relaxation_do_not_meet(setting):
     _, relaxation, _ = setting
     relaxation.solve()
-    flights = relaxation.rounded()
+    flights = relaxation.master.rounded()
     visits = [i for _, path in flights for i in path]
     assert flights
     assert len(visits) == len(set(visits))

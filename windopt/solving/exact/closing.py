@@ -194,7 +194,7 @@ class Closing:
         tight = tighten(pool, reduced, rows, counts, target, search, search.prove)
         self.known = tight.duals, tight.rows
         if len(tight.pool) > MOST:
-            improve(search, self.seed, THOROUGH, self.relaxation.rounded())
+            improve(search, self.seed, THOROUGH, self.relaxation.master.rounded())
         if len(tight.pool):
             search.note("%d flights left above %.3f", len(tight.pool), tight.value)
             branch(tight, counts, target, search)

@@ -4,6 +4,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
+from typing import Self
 
 import numpy as np
 from scipy.sparse import csc_array, csr_array, hstack, vstack
@@ -12,6 +13,7 @@ from formulations.set_partitioning import SetPartitioning, set_partitioning
 from windopt.solving.exact.clock import Clock
 from windopt.solving.exact.crowded_sets import CrowdedSets
 from windopt.solving.exact.network import Bools, Floats, Network
+from windopt.solving.exact.search import Flight
 from windopt.solving.exact.subset_row_cuts import Column, Cuts, Path
 
 DUAL, PRIMAL = 1, 4
@@ -48,6 +50,22 @@ class Duals:
     def grant(self) -> Floats:
         """What crowded sets grant for flying each leg, the station last; ``(n + 1, n + 1)``."""
         return self.crowded.grants(self.reward)
+
+    @classmethod
+    def of(cls, program: SetPartitioning, price: Floats, crowded: CrowdedSets) -> Self:
+        """Return the duals of a program that is solved, to which the solver keeps but for rounding.
+
+        Parameters
+        ----------
+        price
+            Of leaving each turbine out, which none is worth more than.
+        crowded
+            The sets of the rows of crowded sets.
+        """
+        dual = program.model.getSolution().row_dual
+        pi, sigma, penalty, reward = program.by_equation(dual)
+        pi, reward = np.clip(pi, 0.0, price), np.maximum(reward, 0.0)
+        return cls(pi, sigma, np.maximum(-penalty, 0.0), reward, crowded)
 
     @property
     def toll(self) -> Floats:
@@ -163,6 +181,12 @@ class Master:
         self._known = {(column.station, column.path) for column in self.columns}
         self.x = self.x[keep[: len(self.x)]]
 
+    def keep_cheapest(self, number: int) -> None:
+        """Keep the columns of least reduced cost: the basis among them, if it is no larger."""
+        keep = np.zeros(len(self.columns), bool)
+        keep[np.argsort(self.reduced_costs(), kind="stable")[:number]] = True
+        self.keep(keep)
+
     def cut(self, cuts: Cuts) -> None:
         """Add subset rows."""
         coefficients = cuts.coefficients([column.path for column in self.columns])
@@ -213,10 +237,7 @@ class Master:
         values = np.array(solution.col_value)
         self.x = values[self.n :]
         self.value = model.getInfo().objective_function_value
-        pi, sigma, penalty, reward = self._program.by_equation(solution.row_dual)
-        pi = np.clip(pi, 0.0, self.price)  # the solver keeps this but for rounding
-        reward, penalty = np.maximum(reward, 0.0), np.maximum(-penalty, 0.0)
-        return Duals(pi, sigma, penalty, reward, self.crowded)
+        return Duals.of(self._program, self.price, self.crowded)
 
     def reduced_costs(self) -> Floats:
         """Return the reduced cost of each column."""
@@ -225,3 +246,16 @@ class Master:
     def flown(self) -> list[tuple[Column, float]]:
         """Return the columns the relaxation uses, and how much of each."""
         return [(self.columns[r], float(self.x[r])) for r in np.flatnonzero(self.x > 1e-7)]
+
+    def rounded(self) -> list[Flight]:
+        """Return flights that do not meet, those first which the relaxation flies most of."""
+        flights: list[Flight] = []
+        visited: set[int] = set()
+        left = self.counts[:-1, 1].copy()
+        for column, _ in sorted(self.flown(), key=lambda flown: -flown[1]):
+            again = len(set(column.path)) < len(column.path) or visited & set(column.path)
+            if not again and left[column.station] > 0:
+                flights.append((column.station, column.path))
+                visited |= set(column.path)
+                left[column.station] -= 1
+        return flights

@@ -14,7 +14,7 @@ from windopt.solving.exact.master import Duals, Master
 from windopt.solving.exact.network import SLACK, Floats
 from windopt.solving.exact.ng_neighbourhoods import nearest
 from windopt.solving.exact.pricing import MOST_LABELS, TOLERANCE, LabelsOverflow, Pricer
-from windopt.solving.exact.search import Flight, Search, alone
+from windopt.solving.exact.search import Search, alone
 from windopt.solving.exact.subset_row_cuts import separate
 
 NEIGHBOURS, MOST_NEIGHBOURS = 8, 16
@@ -122,7 +122,7 @@ class Relaxation:
         while True:
             self.duals = self.master.solve(self.search.clock)
             if len(self.master.columns) > MOST_COLUMNS:
-                self._drop_dear_columns()
+                self.master.keep_cheapest(KEPT_COLUMNS)
                 continue
             if hurry < len(ways):
                 exact, keep = ways[hurry]
@@ -141,12 +141,6 @@ class Relaxation:
                 return
             hurry = 0
 
-    def _drop_dear_columns(self) -> None:
-        """Keep the cheapest columns, the basis among them."""
-        keep = np.zeros(len(self.master.columns), bool)
-        keep[np.argsort(self.master.reduced_costs(), kind="stable")[:KEPT_COLUMNS]] = True
-        self.master.keep(keep)
-
     @property
     def value(self) -> float:
         """Bound that the duals prove."""
@@ -156,19 +150,6 @@ class Relaxation:
     def gap(self) -> float:
         """What the duals leave open."""
         return self.search.ceiling - self.value
-
-    def rounded(self) -> list[Flight]:
-        """Return flights that do not meet, those first which the solution flies most of."""
-        flights: list[Flight] = []
-        visited: set[int] = set()
-        left = self.search.counts[:-1, 1].copy()
-        for column, _ in sorted(self.master.flown(), key=lambda flown: -flown[1]):
-            again = len(set(column.path)) < len(column.path) or visited & set(column.path)
-            if not again and left[column.station] > 0:
-                flights.append((column.station, column.path))
-                visited |= set(column.path)
-                left[column.station] -= 1
-        return flights
 
     def grow_neighbourhoods(self) -> bool:
         """Forbid the cycles that the solution flies, and tell whether that raised the bound."""

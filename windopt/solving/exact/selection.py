@@ -80,11 +80,8 @@ class Selection:
         """Return duals and flights flown."""
         model = self._program.model
         clock.run(model)
-        solution = model.getSolution()
-        pi, sigma, penalty, reward = self._program.by_equation(solution.row_dual)
-        pi, reward = np.clip(pi, 0.0, self.price), np.maximum(reward, 0.0)
-        duals = Duals(pi, sigma, np.maximum(-penalty, 0.0), reward, self.crowded)
-        return duals, np.array(solution.col_value)[self.n :]
+        duals = Duals.of(self._program, self.price, self.crowded)
+        return duals, np.array(model.getSolution().col_value)[self.n :]
 
     def value_with(self, keep: Bools, counts: Floats, clock: Clock) -> float:
         """Return the value of the program with the flights ``keep`` and other limits on counts."""
