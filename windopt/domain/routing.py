@@ -1,6 +1,6 @@
 """The inspection problem in numbers: what every routing method takes and returns."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import inf
 from typing import NamedTuple
@@ -91,6 +91,17 @@ class RoutingInstance:
     def reachable(self) -> NDArray[np.bool_]:
         """Whether station d can inspect turbine i and be back in time, shape ``(k, n)``."""
         return self.allowed & (self.round_trip <= self.t_max[:, None])
+
+    def subset(self, turbines: NDArray[np.intp]) -> "RoutingInstance":
+        """Return the instance of these turbines only, in this order, and of all stations."""
+        nodes = np.r_[0, turbines + 1]
+        return replace(
+            self,
+            t=self.t[:, nodes[:, None], nodes],
+            turbines=self.turbines[turbines],
+            allowed=self.allowed[:, turbines],
+            prize=None if self.prize is None else self.prize[turbines],
+        )
 
     def require_all(self, method: str) -> None:
         """Refuse an instance from which turbines may be left out.

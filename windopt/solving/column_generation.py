@@ -19,10 +19,11 @@ from windopt.errors import InvalidInput
 from windopt.result import Effort, Result, Status
 from windopt.solving.exact.clock import Clock, OutOfTime
 from windopt.solving.exact.closing import Closing
+from windopt.solving.exact.first_plan import find_plan
 from windopt.solving.exact.local_search import improve
 from windopt.solving.exact.pricing import LabelsOverflow
 from windopt.solving.exact.relaxation import Relaxation
-from windopt.solving.exact.savings import savings
+from windopt.solving.exact.replanning import Replanning, Solve
 from windopt.solving.exact.search import Search
 
 EFFORT, MORE = 300_000, 2.0
@@ -34,8 +35,10 @@ MUCH_NARROWER = 0.85
 ROUNDS = 2
 """Rounds of cuts between two lists, at most."""
 THOROUGH = 3
-"""Times the first local search to search again, and more each time flights are too many; every
-second time it begins anew."""
+"""Times the first local search to search again each time flights are too many; every second time
+it begins anew."""
+LEAST_MEMORY = 1e8
+"""Least memory to work with [bytes]."""
 SOURCE = "column generation"
 
 
@@ -76,7 +79,8 @@ def column_generation(
             return _infeasible(search)
         stopped, lacking = Status.FEASIBLE, ""
         try:
-            _begin(search, start, seed)
+            find_plan(search, seed, [(route.station, route.turbines) for route in start or ()])
+            search.note("start")
             _prove(search, memory, seed)
         except OutOfTime:
             lacking = "time"
@@ -92,8 +96,8 @@ def _require_limits(time_limit: float, gap: float, memory: float) -> None:
         raise InvalidInput("time_limit", ">= 0 s", time_limit)
     if not gap >= 0:
         raise InvalidInput("gap", ">= 0", gap)
-    if not memory >= 1e8:
-        raise InvalidInput("memory", "of at least 1e8 bytes", memory)
+    if not memory >= LEAST_MEMORY:
+        raise InvalidInput("memory", f"of at least {LEAST_MEMORY:g} bytes", memory)
 
 
 def _infeasible(search: Search) -> Result[tuple[Route, ...]]:
@@ -101,17 +105,6 @@ def _infeasible(search: Search) -> Result[tuple[Route, ...]]:
     beyond = ", ".join(str(i) for i in search.unreachable)
     reason = f"No flight from any station reaches turbines {beyond} and is back in time."
     return Result(Status.INFEASIBLE, None, inf, inf, search.clock.elapsed, SOURCE, reason)
-
-
-def _begin(search: Search, start: tuple[Route, ...] | None, seed: int) -> None:
-    """Find a good plan."""
-    search.offer(savings(search.networks, search.counts[:-1, 1], search.prize))
-    search.offer(())
-    if start is not None:
-        search.offer([(route.station, route.turbines) for route in start])
-    if search.found:
-        improve(search, seed)
-    search.note("start")
 
 
 def _prove(search: Search, memory: float, seed: int) -> None:
@@ -124,17 +117,30 @@ def _prove(search: Search, memory: float, seed: int) -> None:
     rounded = relaxation.master.rounded()
     improve(search, seed + 1, start=rounded)
     closing, effort = Closing(relaxation, seed + 2), float(EFFORT)
+    replanning = Replanning(search, _solver(memory), seed)
     narrowing, listed = True, relaxation.gap
     for attempt in count(1):
         in_parts = attempt > 1 and (not narrowing or relaxation.gap <= MUCH_NARROWER * listed)
         listed = relaxation.gap if in_parts else listed
         if closing.close(int(effort), in_parts=in_parts):
             return
-        anew = attempt % 2 == 0
-        improve(search, seed + 2 + attempt, THOROUGH * attempt, None if anew else rounded)
+        improve(search, seed + 2 + attempt, THOROUGH, None if attempt % 2 == 0 else rounded)
+        replanning.improve()
         narrowing = _narrow(closing, int(effort))
         rounded = relaxation.master.rounded()
         effort = min(MORE * effort, memory)  # a half flight takes more than a byte
+
+
+def _solver(memory: float) -> Solve:
+    """Return what plans some of the flights anew while the whole search waits."""
+
+    def solve(
+        instance: RoutingInstance, start: tuple[Route, ...], limit: float
+    ) -> Result[tuple[Route, ...]]:
+        few = max(LEAST_MEMORY, memory / 2)
+        return column_generation(instance, time_limit=limit, start=start, memory=few)
+
+    return solve
 
 
 def _narrow(closing: Closing, effort: int) -> bool:

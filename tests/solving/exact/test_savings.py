@@ -1,6 +1,5 @@
 """Savings: plans at once, that keep every limit."""
 
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -19,14 +18,7 @@ def search(request, small):
     """Return a search of a random instance, of the turbines within reach."""
     instance = small.random_instance(request.param)
     reached = np.flatnonzero(instance.reachable.any(axis=0))
-    nodes = np.r_[0, reached + 1]
-    within = replace(
-        instance,
-        t=instance.t[:, nodes][:, :, nodes],
-        turbines=instance.turbines[reached],
-        allowed=instance.allowed[:, reached],
-    )
-    return Search(within, Clock(600.0))
+    return Search(instance.subset(reached), Clock(600.0))
 
 
 def test_every_turbine_is_visited_once_in_time(search):

@@ -45,6 +45,7 @@ class Search:
         gap: float = 0.0,
         progress: Callable[[float, float], None] | None = None,
     ) -> None:
+        self.instance = instance
         self.networks, self.unit = networks(instance)
         self.n = len(instance.turbines)
         self.prize = _prizes(instance) / self.unit
