@@ -1,6 +1,5 @@
 """Savings: plans at once, that keep every limit."""
 
-
 import numpy as np
 import pytest
 

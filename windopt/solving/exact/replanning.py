@@ -103,7 +103,7 @@ class Replanning:
             If time is up.
         """
         search, clock = self.search, self.search.clock
-        while self.spent < SHARE * clock.elapsed and not search.closed:
+        while search.found and not search.closed and self.spent < SHARE * clock.elapsed:
             began = clock.elapsed
             if search.objective < self.known - CLOSED:
                 self._take(search.flights)
@@ -111,7 +111,6 @@ class Replanning:
             neighbours = self._unseen()
             if neighbours is not None:
                 self._replan(neighbours, min(clock.left, max(LEAST_PATIENCE, PATIENCE * began)))
-                search.offer(self.plan.flights)
             elif abs(self.plan.objective - self.rival) <= CLOSED:
                 return
             else:
@@ -139,14 +138,16 @@ class Replanning:
         while self.size < len(SIZES) and SIZES[self.size] < self.search.n:
             for i in self._random.permutation(self.search.n):
                 neighbours = self._around(i, SIZES[self.size])
-                if neighbours.turbines not in self._seen:
-                    self._seen.add(neighbours.turbines)
+                turbines = neighbours.turbines
+                if turbines and turbines not in self._seen:
+                    self._seen.add(turbines)
                     return neighbours
             self.size += 1
         return None
 
     def _around(self, turbine: int, most: int) -> Neighbours:
-        """Return those nearest to a turbine, of a number of turbines at most."""
+        """Return those nearest to a turbine, of so many turbines at most: none if even one
+        flight visits more."""
         flight = {i: each for each in self.plan.flights for i in each[1]}
         flights: set[Flight] = set()
         left_out: set[int] = set()
@@ -165,7 +166,7 @@ class Replanning:
         return Neighbours(frozenset(flights), frozenset(left_out))
 
     def _replan(self, neighbours: Neighbours, limit: float) -> None:
-        """Put the best flights found in place of neighbours."""
+        """Offer the plan with the best flights found in place of neighbours."""
         turbines = np.array(sorted(neighbours.turbines))
         place = {i: at for at, i in enumerate(turbines.tolist())}
         others = [each for each in self.plan.flights if each not in neighbours.flights]
@@ -173,6 +174,7 @@ class Replanning:
         result = self.solve(self._problem(turbines, others), start, limit)
         found = [(d, tuple(turbines[list(path)].tolist())) for d, path in result.solution or ()]
         self.plan.offer([*others, *found])
+        self.search.offer(self.plan.flights)
         if result.status is Status.INTERRUPTED:
             raise KeyboardInterrupt
 
