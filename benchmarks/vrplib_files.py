@@ -20,7 +20,7 @@ from benchmarks.report.lines import answered
 from benchmarks.whole_times import whole_limits, whole_times
 from windopt.domain.routing import Route, RoutingInstance
 from windopt.errors import InvalidInput, MissingExtra
-from windopt.planning.reach import restricted, routing_instance
+from windopt.planning.reach import routing_instance
 
 
 def export(names: Sequence[str], records: Sequence[Record], out: Path) -> list[Path]:
@@ -64,7 +64,7 @@ def within_reach(inspection: Inspection) -> tuple[RoutingInstance, list[int]]:
     reached = np.flatnonzero(everything.reachable.any(axis=0)).tolist()
     if not reached:
         raise InvalidInput("instance", "with a turbine within reach", inspection.name)
-    return restricted(everything, reached), reached
+    return everything.subset(reached), reached
 
 
 def _data(inspection: Inspection, problem: RoutingInstance) -> dict[str, object]:

@@ -107,9 +107,9 @@ def test_an_instance_can_be_compared_and_hashed():
 
 def test_a_subset_keeps_times_permissions_and_prizes_of_its_turbines():
     whole = instance(allowed=np.array([[False, True]]), prize=np.array([1.0, 2.0]))
-    part = whole.subset(np.array([1]))
+    part = whole.subset([1])
     assert part.t.tolist() == [[[0.0, 5.0], [2.0, 0.0]]]
     assert part.allowed.tolist() == [[True]]
     assert part.prize.tolist() == [2.0]
     assert part.duration(Route(0, (0,))) == whole.duration(Route(0, (1,)))
-    assert instance().subset(np.array([1, 0])).t[0, 1, 2] == 2.0
+    assert instance().subset([1, 0]).t[0, 1, 2] == 2.0

@@ -153,7 +153,7 @@ def test_an_interrupt_in_the_first_moment_returns_a_plan_worth_flying(monkeypatc
 
     instance = grid(5, 800.0)
     best = column_generation(instance)
-    monkeypatch.setattr("windopt.solving.column_generation.improve", interrupted)
+    monkeypatch.setattr("windopt.solving.exact.first_plan.improve", interrupted)
     result = column_generation(instance)
     assert result.status is Status.INTERRUPTED
     assert 0 < result.bound <= best.objective <= result.objective < 1.2 * best.objective
@@ -232,3 +232,13 @@ def test_unreachable_turbines_are_named():
 def test_windopt_is_imported_without_numba():
     code = "import sys, windopt, windopt.solving; assert 'numba' not in sys.modules"
     subprocess.run([sys.executable, "-c", code], check=True)
+
+
+def test_a_turbine_at_the_station_takes_no_time():
+    instance = RoutingInstance(
+        np.zeros((1, 2, 2)), np.array([900.0]), np.zeros((1, 2)), np.zeros((1, 2)), np.zeros(2),
+        np.ones((1, 1), bool),
+    )  # fmt: skip
+    result = column_generation(instance)
+    assert result.status is Status.OPTIMAL
+    assert result.objective == pytest.approx(0.0, abs=1e-6)

@@ -1,5 +1,6 @@
 """The inspection problem in numbers: what every routing method takes and returns."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import inf
@@ -92,15 +93,22 @@ class RoutingInstance:
         """Whether station d can inspect turbine i and be back in time, shape ``(k, n)``."""
         return self.allowed & (self.round_trip <= self.t_max[:, None])
 
-    def subset(self, turbines: NDArray[np.intp]) -> "RoutingInstance":
-        """Return the instance of these turbines only, in this order, and of all stations."""
-        nodes = np.r_[0, turbines + 1]
+    def subset(self, turbines: Sequence[int]) -> "RoutingInstance":
+        """Return the instance of some turbines, and of all stations and their limits.
+
+        Parameters
+        ----------
+        turbines
+            Which, from 0 and in the order wanted.
+        """
+        chosen = np.asarray(turbines, dtype=int)
+        nodes = np.append(0, chosen + 1)
         return replace(
             self,
             t=self.t[:, nodes[:, None], nodes],
-            turbines=self.turbines[turbines],
-            allowed=self.allowed[:, turbines],
-            prize=None if self.prize is None else self.prize[turbines],
+            turbines=self.turbines[chosen],
+            allowed=self.allowed[:, chosen],
+            prize=None if self.prize is None else self.prize[chosen],
         )
 
     def require_all(self, method: str) -> None:

@@ -7,7 +7,7 @@ from windopt.domain.plan import InspectionPlan
 from windopt.domain.routing import Route
 from windopt.errors import InvalidInput
 from windopt.planning.assignment import assigned_to
-from windopt.planning.reach import restricted, routing_instance
+from windopt.planning.reach import routing_instance
 from windopt.planning.worth import weighed
 from windopt.result import Result
 
@@ -54,6 +54,6 @@ def certify(
         plan.farm, plan.fleet, plan.wind, dwell=plan.dwell, rule=plan.rule
     )
     assigned = assigned_to(everything, plan.fleet, plan.assignment)
-    instance = restricted(weighed(assigned, plan.fleet, plan.worth), reached)
+    instance = weighed(assigned, plan.fleet, plan.worth).subset(reached)
     proof = prove(instance, routes, result.bound, time_limit=time_limit, memory=memory)
     return Certificate(turbines, plan.fleet.names, proof)

@@ -17,7 +17,6 @@ from windopt.errors import FailedCheck, InvalidInput, require_kind
 from windopt.planning.assignment import Assignment, assigned_to, stations_of_turbines
 from windopt.planning.reach import (
     dwell_per_turbine,
-    restricted,
     routing_instance,
     unreachable_turbines,
 )
@@ -122,7 +121,7 @@ def plan_inspection(
     unreachable = unreachable_turbines(farm, fleet, wind, everything)
     reached = np.flatnonzero(everything.reachable.any(axis=0)).tolist()
     if reached:
-        instance = restricted(everything, reached)
+        instance = everything.subset(reached)
         if start is not None:
             routes = routes_of(inspection_of(start), instance, fleet, farm.names, reached)
             options = replace(options, start=routes)

@@ -1,7 +1,6 @@
 """A farm, a fleet and a wind in numbers, and which turbines are within reach."""
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -117,19 +116,6 @@ def _reason(fleet: Fleet, wind: Wind, instance: RoutingInstance, i: int) -> str:
     return (
         f"The round trip from {station.name}, the nearest in time, takes "
         f"{round_trip[nearest]:.1f} s of {instance.t_max[nearest]:.1f} s."
-    )
-
-
-def restricted(instance: RoutingInstance, turbines: Sequence[int]) -> RoutingInstance:
-    """Return the instance with only the given turbines, in the given order."""
-    chosen = np.asarray(turbines, dtype=int)
-    nodes = np.concatenate([[0], chosen + 1])
-    return replace(
-        instance,
-        t=instance.t[:, nodes[:, None], nodes],
-        turbines=instance.turbines[chosen],
-        allowed=instance.allowed[:, chosen],
-        prize=None if instance.prize is None else instance.prize[chosen],
     )
 
 

@@ -9,7 +9,7 @@ one to a module.
 * [2] Pessoa, Sadykov, Uchoa & Vanderbeck (2020), *Mathematical Programming* 183, 483-523.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from itertools import count
 from math import inf
@@ -23,8 +23,8 @@ from windopt.solving.exact.first_plan import find_plan
 from windopt.solving.exact.local_search import improve
 from windopt.solving.exact.pricing import LabelsOverflow
 from windopt.solving.exact.relaxation import Relaxation
-from windopt.solving.exact.replanning import Replanning, Solve
-from windopt.solving.exact.search import Search
+from windopt.solving.exact.replanning import Replanning
+from windopt.solving.exact.search import Flight, Search
 
 EFFORT, MORE = 300_000, 2.0
 """Half flights that the first attempt to list all flights may hold, and the growth of that."""
@@ -37,8 +37,6 @@ ROUNDS = 2
 THOROUGH = 3
 """Times the first local search to search again each time flights are too many; every second time
 it begins anew."""
-LEAST_MEMORY = 1e8
-"""Least memory to work with [bytes]."""
 SOURCE = "column generation"
 
 
@@ -79,13 +77,8 @@ def column_generation(
             return _infeasible(search)
         stopped, lacking = Status.FEASIBLE, ""
         try:
-            find_plan(search, seed, [(route.station, route.turbines) for route in start or ()])
-            search.note("start")
-            _prove(search, memory, seed)
-        except OutOfTime:
-            lacking = "time"
-        except LabelsOverflow:
-            lacking = "memory"
+            flights = [(route.station, route.turbines) for route in start or ()]
+            lacking = _plan(search, flights, memory, seed)
         except KeyboardInterrupt:
             stopped = Status.INTERRUPTED
         return _result(search, stopped, lacking)
@@ -96,8 +89,8 @@ def _require_limits(time_limit: float, gap: float, memory: float) -> None:
         raise InvalidInput("time_limit", ">= 0 s", time_limit)
     if not gap >= 0:
         raise InvalidInput("gap", ">= 0", gap)
-    if not memory >= LEAST_MEMORY:
-        raise InvalidInput("memory", f"of at least {LEAST_MEMORY:g} bytes", memory)
+    if not memory >= 1e8:
+        raise InvalidInput("memory", "of at least 1e8 bytes", memory)
 
 
 def _infeasible(search: Search) -> Result[tuple[Route, ...]]:
@@ -105,6 +98,19 @@ def _infeasible(search: Search) -> Result[tuple[Route, ...]]:
     beyond = ", ".join(str(i) for i in search.unreachable)
     reason = f"No flight from any station reaches turbines {beyond} and is back in time."
     return Result(Status.INFEASIBLE, None, inf, inf, search.clock.elapsed, SOURCE, reason)
+
+
+def _plan(search: Search, start: Sequence[Flight], memory: float, seed: int) -> str:
+    """Find a plan and prove it; return what ran out before that."""
+    try:
+        find_plan(search, seed, start)
+        search.note("start")
+        _prove(search, memory, seed)
+    except OutOfTime:
+        return "time"
+    except LabelsOverflow:
+        return "memory"
+    return ""
 
 
 def _prove(search: Search, memory: float, seed: int) -> None:
@@ -117,7 +123,8 @@ def _prove(search: Search, memory: float, seed: int) -> None:
     rounded = relaxation.master.rounded()
     improve(search, seed + 1, start=rounded)
     closing, effort = Closing(relaxation, seed + 2), float(EFFORT)
-    replanning = Replanning(search, _solver(memory), seed)
+    # Labels are held while a few flights are planned anew, lists are not.
+    replanning = Replanning(search, lambda few, start: _plan(few, start, memory / 2, seed), seed)
     narrowing, listed = True, relaxation.gap
     for attempt in count(1):
         in_parts = attempt > 1 and (not narrowing or relaxation.gap <= MUCH_NARROWER * listed)
@@ -129,18 +136,6 @@ def _prove(search: Search, memory: float, seed: int) -> None:
         narrowing = _narrow(closing, int(effort))
         rounded = relaxation.master.rounded()
         effort = min(MORE * effort, memory)  # a half flight takes more than a byte
-
-
-def _solver(memory: float) -> Solve:
-    """Return what plans some of the flights anew while the whole search waits."""
-
-    def solve(
-        instance: RoutingInstance, start: tuple[Route, ...], limit: float
-    ) -> Result[tuple[Route, ...]]:
-        few = max(LEAST_MEMORY, memory / 2)
-        return column_generation(instance, time_limit=limit, start=start, memory=few)
-
-    return solve
 
 
 def _narrow(closing: Closing, effort: int) -> bool:

@@ -1,21 +1,21 @@
 """Planning neighbouring flights anew: better plans, of all turbines, and an end."""
 
 from dataclasses import replace
+from time import sleep
 
 import numpy as np
 import pytest
 
 from windopt.domain.routing import RoutingInstance
-from windopt.result import Result, Status
-from windopt.solving.column_generation import column_generation
+from windopt.solving import column_generation
 from windopt.solving.exact import replanning
-from windopt.solving.exact.clock import Clock
+from windopt.solving.exact.clock import Clock, OutOfTime
 from windopt.solving.exact.replanning import Replanning
 from windopt.solving.exact.search import Search, alone
 
 
-def solve(instance, start, limit):
-    return column_generation(instance, start=start, time_limit=limit)
+def solve(search, start):
+    column_generation._plan(search, start, memory=4e9, seed=0)
 
 
 def farm(**changes):
@@ -30,8 +30,12 @@ def farm(**changes):
     return replace(given, **changes)
 
 
-def best_plan(search):
-    return column_generation(search.instance).solution
+def best(instance):
+    return column_generation.column_generation(instance)
+
+
+def best_flights(search):
+    return [(route.station, route.turbines) for route in best(search.instance).solution]
 
 
 @pytest.fixture(autouse=True)
@@ -50,8 +54,7 @@ def search():
 
 def test_a_poor_plan_becomes_the_best(search):
     Replanning(search, solve, 0).improve()
-    best = column_generation(search.instance).objective
-    assert search.objective * search.unit == pytest.approx(best)
+    assert search.objective * search.unit == pytest.approx(best(search.instance).objective)
     assert sorted(i for _, path in search.flights for i in path) == list(range(20))
 
 
@@ -59,7 +62,7 @@ def test_it_ends_when_a_plan_from_scratch_is_the_best_again(search):
     replanned = Replanning(search, solve, 0)
     replanned.improve()
     assert replanned.from_scratch
-    assert replanned.plan.objective == pytest.approx(search.objective)
+    assert replanned.trial.objective == pytest.approx(search.objective)
     before = replanned.from_scratch
     replanned.improve()
     assert replanned.from_scratch == before
@@ -67,45 +70,58 @@ def test_it_ends_when_a_plan_from_scratch_is_the_best_again(search):
 
 @pytest.fixture
 def asked():
-    """Return problems and plans that were handed to a method that finds nothing better."""
+    """Return searches and flights that were handed to a method that finds nothing better."""
     return []
 
 
 @pytest.fixture
 def idle(asked):
-    def solve(instance, start, limit):
-        asked.append((instance, start))
-        return Result(Status.FEASIBLE, start, instance.total(start), 0.0, 0.0)
+    def solve(search, start):
+        asked.append((search, start))
+        search.offer(start)
 
     return solve
 
 
-def test_problems_are_no_larger_than_allowed_and_none_comes_twice(search, asked, idle):
+def test_parts_are_no_larger_than_allowed_and_none_comes_twice(search, asked, idle):
     replanned = Replanning(search, idle, 0)
     replanned._take(search.flights)
-    while (neighbours := replanned._unseen()) is not None:
-        replanned._replan(neighbours, 1.0)
-    problems = [tuple(map(tuple, instance.turbines)) for instance, _ in asked]
-    assert max(map(len, problems)) == 12
-    assert len(set(problems)) == len(problems)
+    while (part := replanned._unseen()) is not None:
+        replanned._replan(part, 1.0)
+    parts = [tuple(map(tuple, few.instance.turbines)) for few, _ in asked]
+    assert max(map(len, parts)) == 12
+    assert len(set(parts)) == len(parts)
     assert search.flights == tuple(alone(search.networks))
 
 
-def test_flights_too_long_for_a_problem_are_left_alone(search, asked, idle, monkeypatch):
-    monkeypatch.setattr(replanning, "SIZES", (2,))
-    search.offer([(route.station, route.turbines) for route in best_plan(search)])
+def test_no_part_gets_more_time_than_is_left(asked, idle, monkeypatch):
+    monkeypatch.setattr(replanning, "LEAST_PATIENCE", 60.0)
+    with Clock(0.5) as clock:
+        search = Search(farm(), clock)
+        search.offer(alone(search.networks))
+        with pytest.raises(OutOfTime):
+            Replanning(search, lambda few, start: (idle(few, start), sleep(0.1)), 0).improve()
+    assert all(few.clock.limit <= 0.5 for few, _ in asked)
+
+
+def test_a_plan_from_scratch_counts_where_flights_are_too_long_for_a_part(
+    search, asked, idle, monkeypatch
+):
+    monkeypatch.setattr(replanning, "SIZES", (0,))
+    before = search.objective
     Replanning(search, idle, 0).improve()
-    assert all(len(instance.turbines) <= 2 for instance, _ in asked)
+    assert not asked
+    assert search.objective < before
 
 
 def test_a_better_plan_from_elsewhere_is_planned_anew(search, asked, idle):
     replanned = Replanning(search, idle, 0)
     replanned._take(search.flights)
     replanned.known = search.objective
-    search.offer([(route.station, route.turbines) for route in best_plan(search)])
+    search.offer(best_flights(search))
     replanned.improve()
     _, start = asked[0]
-    assert any(len(route.turbines) > 1 for route in start)
+    assert any(len(path) > 1 for _, path in start)
 
 
 def test_turbines_left_out_may_be_inspected_and_flights_stay_few():
@@ -114,14 +130,15 @@ def test_turbines_left_out_may_be_inspected_and_flights_stay_few():
         search = Search(few, clock)
         search.offer(())
         Replanning(search, solve, 0).improve()
-    best = column_generation(few)
-    assert len(best.solution) == len(search.flights) == 2
-    assert search.objective * search.unit == pytest.approx(best.objective)
+    proved = best(few)
+    assert len(proved.solution) == len(search.flights) == 2
+    assert search.objective * search.unit == pytest.approx(proved.objective)
 
 
-def test_an_interrupt_ends_it_and_loses_nothing(search):
-    def interrupted(instance, start, limit):
-        return replace(solve(instance, start, limit), status=Status.INTERRUPTED)
+def test_an_interrupt_passes_and_loses_nothing(search):
+    def interrupted(few, start):
+        solve(few, start)
+        raise KeyboardInterrupt
 
     before = search.objective
     with pytest.raises(KeyboardInterrupt):

@@ -17,7 +17,7 @@ def search(request, small):
     """Return a search of a random instance, of the turbines within reach."""
     instance = small.random_instance(request.param)
     reached = np.flatnonzero(instance.reachable.any(axis=0))
-    return Search(instance.subset(reached), Clock(600.0))
+    return Search(instance.subset(reached.tolist()), Clock(600.0))
 
 
 def test_every_turbine_is_visited_once_in_time(search):

@@ -43,11 +43,13 @@ class Crowding:
     Parameters
     ----------
     t
-        Times of such flights, shape ``(n + 1, n + 1)``; the station is the last node.
+        Times of such flights, in thousandths of the longest t_max, shape ``(n + 1, n + 1)``; the
+        station is the last node.
     longest
-        How long they last at most.
+        How long they last at most, likewise.
     usable
-        Turbines that must be visited, shape ``(n,)``; sets have no others.
+        Turbines that must be visited, shape ``(n,)``; no others are in a set that is proved, though
+        some may be in those around it.
     proved, refuted
         Sets known to need so many flights, and sets of which that could not be proved.
     rounds
@@ -104,7 +106,10 @@ class Crowding:
         self.rounds += 1
         turbines = x[:-1, :-1]
         flow = Flow(turbines + turbines.T, x[:, :-1].sum(axis=0))
-        grown = grown_sets(flow, self.t, self.longest, self.usable, self.rounds)
+        [grown] = self.clock.map(
+            grown_sets,
+            [flow], [self.t], [self.longest], [self.usable], [self.rounds], [self.clock.stop],
+        )  # fmt: skip
         tried = 0
         for row in np.argsort(-grown.lacking, kind="stable"):
             if tried == PROOFS:

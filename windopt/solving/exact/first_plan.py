@@ -1,4 +1,4 @@
-"""A good plan to begin with."""
+"""The first plan of a search: savings or a start, made better by local search."""
 
 from collections.abc import Sequence
 
@@ -14,6 +14,8 @@ def find_plan(search: Search, seed: int, start: Sequence[Flight] = (), effort: i
     ----------
     seed, effort
         Of the local search.
+    start
+        Flights to begin with where they take less time than the savings.
     """
     search.offer(savings(search.networks, search.counts[:-1, 1], search.prize))
     search.offer(())

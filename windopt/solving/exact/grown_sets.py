@@ -155,7 +155,14 @@ def _grow(
 
 
 @compiled
-def grown_sets(flow: Flow, t: Floats, longest: float, usable: Bools, seed: int) -> Grown:
+def grown_sets(
+    flow: Flow,
+    t: Floats,
+    longest: float,
+    usable: Bools,
+    seed: int,
+    stop: NDArray[np.uint8],
+) -> Grown:
     """Return sets that seem to need more flights than the plan sends there.
 
     Parameters
@@ -169,6 +176,8 @@ def grown_sets(flow: Flow, t: Floats, longest: float, usable: Bools, seed: int) 
         Which turbines a set may have, shape ``(n,)``.
     seed
         Of the random numbers, which are the compiled code's own.
+    stop
+        Ends the search when it is not 0.
     """
     np.random.seed(seed)
     n = len(usable)
@@ -178,6 +187,6 @@ def grown_sets(flow: Flow, t: Floats, longest: float, usable: Bools, seed: int) 
     for attempt in range(TRIES):
         noise = NOISE if attempt else 0.0
         for first in range(n):
-            if usable[first]:
+            if usable[first] and stop[0] == 0:
                 count = _grow(found, count, flow, t, longest, usable, first, noise)
     return Grown(found.sets[:count], found.need[:count], found.lacking[:count])

@@ -1,4 +1,4 @@
-"""A good plan to begin with: ruin and recreate under simulated annealing.
+"""Better plans: ruin and recreate under simulated annealing.
 
 Strings of neighbouring flights are torn out and their turbines put back one by one where they
 cost least, now and then not quite there. The method is slack induction by string removals [1],

@@ -29,13 +29,13 @@ class Duals:
     Parameters
     ----------
     pi
-        Reward of each turbine, not negative.
+        Reward of each turbine, not negative, shape ``(n,)``.
     sigma
         Price of a flight from each station, and of any flight, shape ``(k + 1,)``.
     penalty
-        Price of each subset-row cut, not negative.
+        Price of each subset-row cut, not negative, shape ``(cuts,)``.
     reward
-        Price of a flight into each crowded set, not negative.
+        Price of a flight into each crowded set, not negative, shape ``(sets,)``.
     crowded
         Those sets.
     """

@@ -18,6 +18,8 @@ Bools = NDArray[np.bool_]
 
 SLACK = 1e-7
 """What a flight may last beyond t_max for rounding, in thousandths of a t_max / 1000."""
+SHORTEST = 1e-9
+"""A t_max is no less [s], so that it can be divided into parts."""
 UNITS = 1000.0
 """Times are counted in thousandths of the longest t_max, so that tolerances have a meaning."""
 
@@ -116,8 +118,8 @@ class Network:
 
 def networks(instance: RoutingInstance) -> tuple[list[Network], float]:
     """Return the network of each station, and the seconds in one unit of their times."""
-    t_max = np.minimum(instance.t_max, _longest_tour(instance.t))
-    unit = float(max(t_max.max(), 1e-9)) / UNITS
+    t_max = np.maximum(np.minimum(instance.t_max, _longest_tour(instance.t)), SHORTEST)
+    unit = float(t_max.max()) / UNITS
     made = []
     for d, allowed in enumerate(instance.allowed):
         legs = np.where(np.outer(allowed, allowed), instance.t[d, 1:, 1:] / unit, np.inf)

@@ -71,17 +71,11 @@ class Relaxation:
         self.master = Master(networks, self.counts, self.search.prize)
         flights = (*alone(networks), *self.search.flights)
         self.master.add(self.master.column(d, path) for d, path in flights)
-        neighbourhoods, cores = (nearest(self.round_trips, size) for size in (NEIGHBOURS, CORE))
+        trips = self.search.round_trips
+        neighbourhoods, cores = (nearest(trips, size) for size in (NEIGHBOURS, CORE))
         memory = LABELS_SHARE * self.memory
         self.crowding = Crowding.of(networks, np.isinf(self.search.prize), self.search.clock)
         self.pricer = Pricer(networks, neighbourhoods, cores, self.search.clock, memory)
-
-    @property
-    def round_trips(self) -> Floats:
-        """Least time there and back between turbines, shape ``(n, n)``."""
-        networks = self.search.networks
-        trips: Floats = np.minimum.reduce([network.legs + network.legs.T for network in networks])
-        return trips
 
     def begin(self) -> None:
         """Solve the master over all flights, for the first time.
@@ -95,8 +89,8 @@ class Relaxation:
         """
         size = NEIGHBOURS
         while True:
-            neighbourhoods = nearest(self.round_trips, size)
-            cores = nearest(self.round_trips, min(size, CORE))
+            neighbourhoods = nearest(self.search.round_trips, size)
+            cores = nearest(self.search.round_trips, min(size, CORE))
             self.pricer = replace(self.pricer, neighbourhoods=neighbourhoods, cores=cores)
             try:
                 return self.solve()
@@ -174,9 +168,11 @@ class Relaxation:
         Flights of at most t_max that together take the bound are at least bound / t_max, and
         that many are a whole number. Where turbines may be left out, the bound is not all time.
         """
+        if self.search.closed or self.search.partial or self.overfull:
+            return False
         longest = max(network.t_max for network in self.search.networks) + SLACK
         least = ceil(self.search.bound / longest - ROUNDING)
-        if self.search.partial or not self.counts[-1, 0] < least <= self.counts[:-1, 1].sum():
+        if not self.counts[-1, 0] < least <= self.counts[:-1, 1].sum():
             return False
         before = self.counts
         self._recount(np.vstack([before[:-1], [least, before[-1, 1]]]))

@@ -14,10 +14,9 @@ from math import inf
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from windopt.domain.routing import Route, RoutingInstance
-from windopt.result import Result, Status
+from windopt.domain.routing import RoutingInstance
+from windopt.solving.exact.clock import Clock
 from windopt.solving.exact.first_plan import find_plan
 from windopt.solving.exact.search import CLOSED, Flight, Search
 
@@ -30,12 +29,11 @@ PATIENCE, LEAST_PATIENCE = 0.01, 1.0
 THOROUGH = 3
 """Times the first local search for a plan from scratch."""
 
-Ints = NDArray[np.intp]
-Solve = Callable[[RoutingInstance, tuple[Route, ...], float], Result[tuple[Route, ...]]]
-"""Improves a plan of an instance within a time limit [s]."""
+Solve = Callable[[Search, Sequence[Flight]], object]
+"""Offers a search better plans than some flights to begin with, until its time is up."""
 
 
-class Neighbours(NamedTuple):
+class Part(NamedTuple):
     """Flights near one another, and turbines near them that no flight visits."""
 
     flights: frozenset[Flight]
@@ -62,14 +60,14 @@ class Replanning:
 
     Attributes
     ----------
-    plan
-        What is planned anew, in a search of its own.
+    trial
+        A search of its own, whose plan is planned anew.
     size
         Place in :data:`SIZES`.
     known
-        The best plan when flights were last planned anew.
+        Time of the best plan when flights were last planned anew.
     from_scratch, rival
-        Plans made from scratch so far, and what the last was to be better than.
+        Plans made from scratch so far, and the time of the best plan when the last was begun.
     spent
         Time that all took so far [s].
     """
@@ -77,7 +75,7 @@ class Replanning:
     search: Search
     solve: Solve
     seed: int
-    plan: Search = field(init=False)
+    trial: Search = field(init=False)
     size: int = 0
     known: float = inf
     from_scratch: int = 0
@@ -85,8 +83,7 @@ class Replanning:
     spent: float = 0.0
 
     def __post_init__(self) -> None:
-        there = self.search.instance.t[:, 1:, 1:].min(axis=0)
-        distance = there + there.T
+        distance = self.search.round_trips.copy()
         np.fill_diagonal(distance, -1.0)
         self._near = np.argsort(distance, axis=1, kind="stable")
         self._random = np.random.default_rng(self.seed)
@@ -103,15 +100,17 @@ class Replanning:
             If time is up.
         """
         search, clock = self.search, self.search.clock
+        if search.n <= SIZES[-1]:
+            return  # no part is less than the whole
         while search.found and not search.closed and self.spent < SHARE * clock.elapsed:
             began = clock.elapsed
             if search.objective < self.known - CLOSED:
                 self._take(search.flights)
                 self.rival = inf
-            neighbours = self._unseen()
-            if neighbours is not None:
-                self._replan(neighbours, min(clock.left, max(LEAST_PATIENCE, PATIENCE * began)))
-            elif abs(self.plan.objective - self.rival) <= CLOSED:
+            part = self._unseen()
+            if part is not None:
+                self._replan(part, min(clock.left, max(LEAST_PATIENCE, PATIENCE * began)))
+            elif abs(self.trial.objective - self.rival) <= CLOSED:
                 return
             else:
                 self._begin_anew()
@@ -121,34 +120,36 @@ class Replanning:
 
     def _take(self, flights: Sequence[Flight]) -> None:
         """Plan the flights of another plan anew."""
-        self.plan = Search(self.search.instance, self.search.clock)
-        self.plan.offer(flights)
+        self.trial = Search(self.search.instance, self.search.clock)
+        self.trial.offer(flights)
         self.size = 0
         self._seen.clear()
 
     def _begin_anew(self) -> None:
-        """Make a plan from scratch, to be better than the best."""
+        """Make a plan from scratch."""
         self._take(())
         self.from_scratch += 1
         self.rival = self.search.objective
-        find_plan(self.plan, self.seed + self.from_scratch, effort=THOROUGH)
+        try:
+            find_plan(self.trial, self.seed + self.from_scratch, effort=THOROUGH)
+        finally:
+            self.search.offer(self.trial.flights)
 
-    def _unseen(self) -> Neighbours | None:
-        """Return neighbours not planned anew yet, few unless there are no few."""
-        while self.size < len(SIZES) and SIZES[self.size] < self.search.n:
+    def _unseen(self) -> Part | None:
+        """Return a part not planned anew yet, a small one if there is; None where none is left."""
+        while self.size < len(SIZES):
             for i in self._random.permutation(self.search.n):
-                neighbours = self._around(i, SIZES[self.size])
-                turbines = neighbours.turbines
+                part = self._around(i, SIZES[self.size])
+                turbines = part.turbines
                 if turbines and turbines not in self._seen:
                     self._seen.add(turbines)
-                    return neighbours
+                    return part
             self.size += 1
         return None
 
-    def _around(self, turbine: int, most: int) -> Neighbours:
-        """Return those nearest to a turbine, of so many turbines at most: none if even one
-        flight visits more."""
-        flight = {i: each for each in self.plan.flights for i in each[1]}
+    def _around(self, turbine: int, most: int) -> Part:
+        """Return the part around a turbine, of so many turbines at most; it may have none."""
+        flight = {i: each for each in self.trial.flights for i in each[1]}
         flights: set[Flight] = set()
         left_out: set[int] = set()
         turbines = 0
@@ -163,22 +164,25 @@ class Replanning:
                 left_out.add(i)
             else:
                 flights.add(each)
-        return Neighbours(frozenset(flights), frozenset(left_out))
+        return Part(frozenset(flights), frozenset(left_out))
 
-    def _replan(self, neighbours: Neighbours, limit: float) -> None:
-        """Offer the plan with the best flights found in place of neighbours."""
-        turbines = np.array(sorted(neighbours.turbines))
-        place = {i: at for at, i in enumerate(turbines.tolist())}
-        others = [each for each in self.plan.flights if each not in neighbours.flights]
-        start = tuple(Route(d, tuple(place[i] for i in path)) for d, path in neighbours.flights)
-        result = self.solve(self._problem(turbines, others), start, limit)
-        found = [(d, tuple(turbines[list(path)].tolist())) for d, path in result.solution or ()]
-        self.plan.offer([*others, *found])
-        self.search.offer(self.plan.flights)
-        if result.status is Status.INTERRUPTED:
-            raise KeyboardInterrupt
+    def _replan(self, part: Part, limit: float) -> None:
+        """Offer the plan with the best flights found for a part of it."""
+        turbines = sorted(part.turbines)
+        place = {i: at for at, i in enumerate(turbines)}
+        others = [each for each in self.trial.flights if each not in part.flights]
+        start = [(d, tuple(place[i] for i in path)) for d, path in part.flights]
+        with Clock(limit) as clock:
+            few = Search(self._problem(turbines, others), clock)
+            try:
+                self.solve(few, start)
+            finally:  # an interrupt passes, and what was found before it stays
+                found = [(d, tuple(turbines[i] for i in path)) for d, path in few.flights]
+                self.trial.offer([*others, *found])
+                self.search.offer(self.trial.flights)
+        self.search.note("%d turbines in %d flights planned anew", len(turbines), len(start))
 
-    def _problem(self, turbines: Ints, others: list[Flight]) -> RoutingInstance:
+    def _problem(self, turbines: Sequence[int], others: list[Flight]) -> RoutingInstance:
         """Return the problem of some turbines where other flights are flown as well."""
         instance = self.search.instance.subset(turbines)
         if instance.max_flights is None:

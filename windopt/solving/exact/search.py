@@ -110,6 +110,13 @@ class Search:
         return min(most, 2 * self.objective / shortest + len(self.networks))
 
     @property
+    def round_trips(self) -> Floats:
+        """Least time there and back between turbines, shape ``(n, n)``."""
+        nets = self.networks
+        trips: Floats = np.minimum.reduce([net.legs + net.legs.T for net in nets])
+        return trips
+
+    @property
     def unreachable(self) -> NDArray[np.intp]:
         """Turbines that must be inspected and that no flight can visit in time."""
         nets = self.networks
