@@ -20,14 +20,16 @@ from windopt.solving.exact.clock import Clock
 from windopt.solving.exact.first_plan import find_plan
 from windopt.solving.exact.search import CLOSED, Flight, Search
 
-SIZES = (30, 42)
-"""Most turbines of one problem, at first and when all such are solved."""
+SIZES = (30, 42, 60)
+"""Most turbines of a part: at first, when all such are planned anew, and for a plan that was found
+a second time."""
 SHARE = 0.33
 """Share of the time so far that planning anew may take."""
 PATIENCE, LEAST_PATIENCE = 0.01, 1.0
 """Part of the time so far that one problem gets, and the least [s]."""
-THOROUGH = 3
-"""Times the first local search for a plan from scratch."""
+STARTS, THOROUGH = 5, 3
+"""Local searches for a plan from scratch, of which the best counts, and times the first local
+search that each takes: many short ones find better plans than a long one."""
 
 Solve = Callable[[Search, Sequence[Flight]], object]
 """Offers a search better plans than some flights to begin with, until its time is up."""
@@ -47,7 +49,7 @@ class Part(NamedTuple):
 
 @dataclass
 class Replanning:
-    """Plans whose flights are planned anew, a few at a time: the best, then others from scratch.
+    """Plans whose parts are planned anew: the best, then others from scratch.
 
     Parameters
     ----------
@@ -62,8 +64,8 @@ class Replanning:
     ----------
     trial
         A search of its own, whose plan is planned anew.
-    size
-        Place in :data:`SIZES`.
+    size, sizes
+        Which of :data:`SIZES` is at hand, and how many of them are to be.
     known
         Time of the best plan when flights were last planned anew.
     from_scratch, rival
@@ -77,6 +79,7 @@ class Replanning:
     seed: int
     trial: Search = field(init=False)
     size: int = 0
+    sizes: int = 0
     known: float = inf
     from_scratch: int = 0
     rival: float = inf
@@ -90,7 +93,7 @@ class Replanning:
         self._seen: set[frozenset[int]] = set()
 
     def improve(self) -> None:
-        """Plan flights anew while there is time for it, and no plan was found a second time.
+        """Plan parts anew while there is time for it, and until the best plan is found again.
 
         Raises
         ------
@@ -100,8 +103,8 @@ class Replanning:
             If time is up.
         """
         search, clock = self.search, self.search.clock
-        if search.n <= SIZES[-1]:
-            return  # no part is less than the whole
+        if search.n <= SIZES[-2]:
+            return  # the whole is no more than a part
         while search.found and not search.closed and self.spent < SHARE * clock.elapsed:
             began = clock.elapsed
             if search.objective < self.known - CLOSED:
@@ -110,19 +113,21 @@ class Replanning:
             part = self._unseen()
             if part is not None:
                 self._replan(part, min(clock.left, max(LEAST_PATIENCE, PATIENCE * began)))
-            elif abs(self.trial.objective - self.rival) <= CLOSED:
-                return
-            else:
+            elif abs(self.trial.objective - self.rival) > CLOSED:
                 self._begin_anew()
+            elif self.sizes < len(SIZES):
+                self.sizes += 1
+            else:
+                return
             self.known = search.objective
             self.spent += clock.elapsed - began
             clock.check()
 
     def _take(self, flights: Sequence[Flight]) -> None:
-        """Plan the flights of another plan anew."""
+        """Plan parts of another plan anew."""
         self.trial = Search(self.search.instance, self.search.clock)
         self.trial.offer(flights)
-        self.size = 0
+        self.size, self.sizes = 0, len(SIZES) - 1
         self._seen.clear()
 
     def _begin_anew(self) -> None:
@@ -131,13 +136,15 @@ class Replanning:
         self.from_scratch += 1
         self.rival = self.search.objective
         try:
-            find_plan(self.trial, self.seed + self.from_scratch, effort=THOROUGH)
+            for start in range(STARTS):
+                seed = self.seed + STARTS * self.from_scratch + start
+                find_plan(self.trial, seed, effort=THOROUGH)
         finally:
             self.search.offer(self.trial.flights)
 
     def _unseen(self) -> Part | None:
         """Return a part not planned anew yet, a small one if there is; None where none is left."""
-        while self.size < len(SIZES):
+        while self.size < self.sizes and SIZES[self.size] < self.search.n:
             for i in self._random.permutation(self.search.n):
                 part = self._around(i, SIZES[self.size])
                 turbines = part.turbines
