@@ -132,7 +132,8 @@ def _prove(search: Search, memory: float, seed: int) -> None:
         if closing.close(int(effort), in_parts=in_parts):
             return
         improve(search, seed + 2 + attempt, THOROUGH, None if attempt % 2 == 0 else rounded)
-        replanning.improve()
+        if attempt > 1:  # most farms are proved by the second list
+            replanning.improve()
         narrowing = _narrow(closing, int(effort))
         rounded = relaxation.master.rounded()
         effort = min(MORE * effort, memory)  # a half flight takes more than a byte
