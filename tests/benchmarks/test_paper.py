@@ -2,6 +2,8 @@
 
 import pytest
 
+pytest.importorskip("torch")  # the paper's forecasts are trained
+
 from benchmarks.case import Case
 from benchmarks.closed_loop import loop
 from benchmarks.paper import PROBLEM, measure

@@ -48,7 +48,7 @@ def test_workers_claim_as_many_processors_as_they_may_and_none_twice(tmp_path):
 
 @pytest.mark.parametrize("words", [["--out", "{}"], ["--out={}"]])
 def test_a_line_does_not_tell_the_folder_it_was_written_to(tmp_path, monkeypatch, words):
-    words = ["run", "paper", "--instance", "nothing*", *(word.format(tmp_path) for word in words)]
+    words = ["run", "routing", "--instance", "nothing*", *(word.format(tmp_path) for word in words)]
     told = []
     monkeypatch.setattr("benchmarks.__main__._cases", lambda *_: ["a case"])
     monkeypatch.setattr(
@@ -57,4 +57,4 @@ def test_a_line_does_not_tell_the_folder_it_was_written_to(tmp_path, monkeypatch
     monkeypatch.setenv(EACH, "1")
     monkeypatch.setattr(sys, "argv", ["benchmarks", *words])
     main(words)
-    assert told == ["python -m benchmarks run paper --instance 'nothing*'"]
+    assert told == ["python -m benchmarks run routing --instance 'nothing*'"]
