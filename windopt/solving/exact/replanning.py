@@ -8,7 +8,7 @@ the small problems as in [2].
 * [2] Queiroga, Sadykov & Uchoa (2021), *Computers & Operations Research* 136, 105475.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from math import inf
 from typing import NamedTuple
@@ -20,16 +20,14 @@ from windopt.solving.exact.clock import Clock
 from windopt.solving.exact.first_plan import find_plan
 from windopt.solving.exact.search import CLOSED, Flight, Search
 
-SIZES = (30, 42, 60)
-"""Most turbines of a part: at first, when all such are planned anew, and for a plan that was found
-a second time."""
+SIZES = (30, 42)
+"""Most turbines of a part, at first and when all such are planned anew."""
 SHARE = 0.33
 """Share of the time so far that planning anew may take."""
 PATIENCE, LEAST_PATIENCE = 0.01, 1.0
 """Part of the time so far that one problem gets, and the least [s]."""
-STARTS, THOROUGH = 5, 3
-"""Local searches for a plan from scratch, of which the best counts, and times the first local
-search that each takes: many short ones find better plans than a long one."""
+THOROUGH = 3
+"""Times the first local search for a plan from scratch."""
 
 Solve = Callable[[Search, Sequence[Flight]], object]
 """Offers a search better plans than some flights to begin with, until its time is up."""
@@ -64,8 +62,8 @@ class Replanning:
     ----------
     trial
         A search of its own, whose plan is planned anew.
-    size, sizes
-        Which of :data:`SIZES` is at hand, and how many of them are to be.
+    parts
+        Those of its plan that are not planned anew yet.
     known
         Time of the best plan when flights were last planned anew.
     from_scratch, rival
@@ -78,8 +76,7 @@ class Replanning:
     solve: Solve
     seed: int
     trial: Search = field(init=False)
-    size: int = 0
-    sizes: int = 0
+    parts: Iterator[Part] = field(init=False)
     known: float = inf
     from_scratch: int = 0
     rival: float = inf
@@ -90,7 +87,6 @@ class Replanning:
         np.fill_diagonal(distance, -1.0)
         self._near = np.argsort(distance, axis=1, kind="stable")
         self._random = np.random.default_rng(self.seed)
-        self._seen: set[frozenset[int]] = set()
 
     def improve(self) -> None:
         """Plan parts anew while there is time for it, and until the best plan is found again.
@@ -103,20 +99,18 @@ class Replanning:
             If time is up.
         """
         search, clock = self.search, self.search.clock
-        if search.n <= SIZES[-2]:
+        if search.n <= SIZES[-1]:
             return  # the whole is no more than a part
         while search.found and not search.closed and self.spent < SHARE * clock.elapsed:
             began = clock.elapsed
             if search.objective < self.known - CLOSED:
                 self._take(search.flights)
                 self.rival = inf
-            part = self._unseen()
+            part = next(self.parts, None)
             if part is not None:
                 self._replan(part, min(clock.left, max(LEAST_PATIENCE, PATIENCE * began)))
             elif abs(self.trial.objective - self.rival) > CLOSED:
                 self._begin_anew()
-            elif self.sizes < len(SIZES):
-                self.sizes += 1
             else:
                 return
             self.known = search.objective
@@ -127,8 +121,7 @@ class Replanning:
         """Plan parts of another plan anew."""
         self.trial = Search(self.search.instance, self.search.clock)
         self.trial.offer(flights)
-        self.size, self.sizes = 0, len(SIZES) - 1
-        self._seen.clear()
+        self.parts = self._unseen()
 
     def _begin_anew(self) -> None:
         """Make a plan from scratch."""
@@ -136,23 +129,21 @@ class Replanning:
         self.from_scratch += 1
         self.rival = self.search.objective
         try:
-            for start in range(STARTS):
-                seed = self.seed + STARTS * self.from_scratch + start
-                find_plan(self.trial, seed, effort=THOROUGH)
+            find_plan(self.trial, self.seed + self.from_scratch, effort=THOROUGH)
         finally:
             self.search.offer(self.trial.flights)
 
-    def _unseen(self) -> Part | None:
-        """Return a part not planned anew yet, a small one if there is; None where none is left."""
-        while self.size < self.sizes and SIZES[self.size] < self.search.n:
-            for i in self._random.permutation(self.search.n):
-                part = self._around(i, SIZES[self.size])
-                turbines = part.turbines
-                if turbines and turbines not in self._seen:
-                    self._seen.add(turbines)
-                    return part
-            self.size += 1
-        return None
+    def _unseen(self) -> Iterator[Part]:
+        """Yield parts of the plan as it then is, small ones first, no same turbines twice."""
+        seen: set[frozenset[int]] = {frozenset()}
+        for most in SIZES:
+            while True:
+                parts = (self._around(i, most) for i in self._random.permutation(self.search.n))
+                part = next((part for part in parts if part.turbines not in seen), None)
+                if part is None:
+                    break
+                seen.add(part.turbines)
+                yield part
 
     def _around(self, turbine: int, most: int) -> Part:
         """Return the part around a turbine, of so many turbines at most; it may have none."""
