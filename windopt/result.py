@@ -26,7 +26,7 @@ class Status(StrEnum):
 
 
 _SENTENCES = {
-    Status.OPTIMAL: "Proved best, or within the gap where one was asked for.",
+    Status.OPTIMAL: "Proved best.",
     Status.LOCALLY_OPTIMAL: "First-order conditions hold; a better solution may lie elsewhere.",
     Status.FEASIBLE: "A solution that keeps every constraint, without a proof that it is best.",
     Status.INFEASIBLE: "Proved: no solution keeps every constraint.",
@@ -66,7 +66,7 @@ class Effort:
     nodes: int = 0
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Result(Generic[Solution]):
     """Outcome of one method on one problem.
 
@@ -111,6 +111,19 @@ class Result(Generic[Solution]):
         distance = abs(self.objective - self.bound)
         return distance / abs(self.objective) if self.objective else (inf if distance else 0.0)
 
+    @property
+    def sentence(self) -> str:
+        """The status as a sentence, with the gap where one was asked for."""
+        if self.status is Status.OPTIMAL and self.asked_gap:
+            return f"Proved best to within the gap of {self.asked_gap:.2%} that was asked for."
+        return self.status.sentence
+
+    def __repr__(self) -> str:
+        """Return what is found and how sure it is; the solution itself would fill pages."""
+        kind = "no solution" if self.solution is None else type(self.solution).__name__
+        values = f"objective={self.objective:.6g}, bound={self.bound:.6g}, gap={self.gap:.4g}"
+        return f"<Result: {self.status}, {kind}, {values}, runtime={self.runtime:.3g}>"
+
     def found(self) -> Solution:
         """Return the solution, or raise where there is none.
 
@@ -120,7 +133,7 @@ class Result(Generic[Solution]):
             With the reason, if the method found no solution.
         """
         if self.solution is None:
-            raise ValueError(f"{self.status.sentence} {self.reason}".strip())
+            raise ValueError(f"{self.sentence} {self.reason}".strip())
         return self.solution
 
     def carrying(self, solution: Other | None) -> "Result[Other]":

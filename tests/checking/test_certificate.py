@@ -18,7 +18,11 @@ from windopt.errors import InvalidInput
 from windopt.planning.certification import certify
 from windopt.planning.inspection import plan_inspection
 from windopt.result import Status
+from windopt.solving import certification
 from windopt.solving.exact import cases
+from windopt.solving.exact.clock import OutOfTime
+from windopt.solving.exact.pricing import LabelsOverflow
+from windopt.solving.exact.relaxation import Relaxation
 
 
 def random_result(seed, most=9):
@@ -44,6 +48,42 @@ def test_the_certificate_of_an_optimum_passes(seed):
     assert report.passed, report
     assert certificate.proof.bound == pytest.approx(result.bound, rel=1e-7)
     assert report.proved
+
+
+@pytest.mark.parametrize("ended", [OutOfTime, LabelsOverflow, KeyboardInterrupt])
+@pytest.mark.parametrize("after", [0, 1])
+def test_what_is_proved_before_the_end_is_kept(monkeypatch, ended, after):
+    result = random_result(3)
+
+    def end(*_):
+        raise ended
+
+    ends = Relaxation.grow_neighbourhoods if after else Relaxation.begin
+    monkeypatch.setattr(Relaxation, ends.__name__, end)
+    certificate = certify(result)
+    proved = certificate.proof.bound
+    assert 0.4 * result.bound < proved < result.bound
+    assert ("user" in certificate.reason) == (ended is KeyboardInterrupt)
+    report = check_certificate(result.solution, proved, certificate)
+    assert report.passed, report
+    assert not check_certificate(result.solution, result.bound, certificate).passed
+
+
+def test_where_the_whole_gap_takes_too_long_a_part_is_proved(monkeypatch):
+    result, calls = random_result(20, most=16), []
+    monkeypatch.setattr(cases, "LEAST_VIOLATION", 10.0)
+
+    def slow_at_first(*given):
+        calls.append(given)
+        if len(calls) == 1:
+            raise OutOfTime
+        return cases.prove(*given)
+
+    monkeypatch.setattr(certification, "prove", slow_at_first)
+    certificate = certify(result)
+    assert certificate.proof.bound < result.bound
+    assert certificate.reason
+    assert check_certificate(result.solution, certificate.proof.bound, certificate).passed
 
 
 @pytest.mark.parametrize("seed", range(40, 60))

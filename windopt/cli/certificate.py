@@ -36,7 +36,7 @@ def write_proof(
     proved = certificate.proof.bound
     if proved < result.bound * (1 - LACKING):
         lacking = f"The certificate proves {proved:.2f} s of the bound of {result.bound:.2f} s"
-        note((f"{lacking}: time or memory did not suffice.",))
+        note((f"{lacking}. {certificate.reason}",))
     paths = [path] if folder is None else [path, folder / "certificate.json"]
     for each in paths:
         write_certificate(certificate, each, force=force)

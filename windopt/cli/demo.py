@@ -9,7 +9,8 @@ from windopt.cli import options as opt
 from windopt.cli.compiling import tell_of_compiling
 from windopt.cli.files import require_free, write_folder
 from windopt.cli.outcome import exit_code, print_record
-from windopt.cli.terminal import note, progress, say, show_plan
+from windopt.cli.summaries import show_plan
+from windopt.cli.terminal import note, progress, say
 from windopt.io.built_in import built_in_farm, built_in_series, built_in_stations
 from windopt.planning.inspection import DEFAULT_METHOD
 from windopt.planning.plan import plan

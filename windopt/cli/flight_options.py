@@ -8,6 +8,7 @@ import typer
 
 from windopt.cli import options as opt
 from windopt.cli.fleets import fleet
+from windopt.cli.terminal import Told, left_out, seconds
 from windopt.domain.farm import Farm
 from windopt.domain.fleet import FALCON_8, Fleet, Uav
 from windopt.errors import InvalidInput
@@ -16,7 +17,7 @@ from windopt.io.turbine_tables import read_numbers, read_stations_of_turbines
 from windopt.planning.assignment import NEAREST, Assignment
 from windopt.planning.inspection import DEFAULT_METHOD
 from windopt.planning.search_options import MEMORY
-from windopt.planning.worth import worth_of_priorities
+from windopt.planning.worth import unit_of_priority, worth_of_priorities
 
 GB = 1e9
 
@@ -106,6 +107,11 @@ class FlightOptions:
                 for station in based.stations
             )
         )
+
+    def told(self, farm: Farm, based: Fleet) -> Told:
+        """Return what says how far a search is: in turbines, where their number comes first."""
+        first = self.priorities is not None or (based.limited and not self.worth)
+        return left_out(unit_of_priority(based, len(farm))) if first else seconds
 
     def asked(self, farm: Farm, based: Fleet) -> dict[str, Any]:
         """Return what is asked of :func:`windopt.plan_inspection`, by keyword.

@@ -8,7 +8,8 @@ from windopt.cli.compiling import tell_of_compiling
 from windopt.cli.files import require_free, write_folder
 from windopt.cli.flight_options import FlightOptions, UavOptions
 from windopt.cli.outcome import exit_code, print_record
-from windopt.cli.terminal import note, progress, show_inspection
+from windopt.cli.summaries import show_inspection
+from windopt.cli.terminal import note, progress
 from windopt.cli.unfolded import unfolded
 from windopt.domain.farm import Farm
 from windopt.domain.wind import Wind
@@ -37,7 +38,8 @@ def inspect(
     based = flights.fleet(site, uav.uav)
     asked = flights.asked(site, based)
     tell_of_compiling(flights.method)
-    with progress(f"Planning flights for {site.name} by {flights.method}") as update:
+    task = f"Planning flights for {site.name} by {flights.method}"
+    with progress(task, flights.told(site, based)) as update:
         result = plan_inspection(site, based, wind, **asked, progress=update)
     if json:
         print_record(result)

@@ -11,7 +11,8 @@ from windopt.cli.farm_options import PaceOptions, RotorOptions, SteeringOptions
 from windopt.cli.files import require_free, write_folder
 from windopt.cli.flight_options import FlightOptions, UavOptions
 from windopt.cli.outcome import exit_code, print_record
-from windopt.cli.terminal import note, progress, show_plan
+from windopt.cli.summaries import show_plan
+from windopt.cli.terminal import note, progress
 from windopt.cli.times import parsed
 from windopt.cli.unfolded import unfolded
 from windopt.domain.farm import Farm
@@ -55,7 +56,7 @@ def plan(
     based = flights.fleet(site, uav.uav)
     asked = flights.asked(site, based)
     tell_of_compiling(flights.method)
-    with progress(f"Planning {site.name}") as update:
+    with progress(f"Planning {site.name}", flights.told(site, based)) as update:
         made = make_plan(
             site,
             based,

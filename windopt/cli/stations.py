@@ -90,7 +90,7 @@ def stations(
 def _show(result: Result[Fleet], placed: Placement | None, beside: Sequence[Placement]) -> None:
     """Print stations, what proves them and what k-means achieves."""
     if placed is None:
-        say(f"No stations: {result.status.sentence} {result.reason}")
+        say(f"No stations: {result.sentence} {result.reason}")
         return
     table = Table("station", "x (m)", "y (m)", "turbines", title="Stations")
     for column in table.columns[1:]:
@@ -113,8 +113,8 @@ def _achieved(placed: Placement) -> str:
 
 def _proof(result: Result[Fleet]) -> str:
     if not isfinite(result.bound):
-        return f"{result.status.sentence} There is no bound."
+        return f"{result.sentence} There is no bound."
     return (
-        f"{result.status.sentence} Objective {result.objective:g}, bound {result.bound:g} "
+        f"{result.sentence} Objective {result.objective:g}, bound {result.bound:g} "
         f"({result.bound_source}), {result.runtime:.1f} s."
     )

@@ -10,7 +10,8 @@ from windopt.cli import options as opt
 from windopt.cli.farm_options import RotorOptions, SteeringOptions
 from windopt.cli.files import require_free, write_folder
 from windopt.cli.outcome import exit_code, print_record
-from windopt.cli.terminal import note, progress, show_yaw
+from windopt.cli.summaries import show_yaw
+from windopt.cli.terminal import note, progress
 from windopt.cli.unfolded import unfolded
 from windopt.domain.farm import Farm
 from windopt.domain.power_curve import STANDARD_AIR_DENSITY

@@ -71,7 +71,7 @@ def yaw_table(
         f"{result.runtime:.1f} s. Written to {out}."
     )
     if result.status is Status.INTERRUPTED:
-        say(result.status.sentence)
+        say(result.sentence)
 
 
 def parsed_range(option: str, text: str) -> NDArray[np.float64]:

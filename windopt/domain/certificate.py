@@ -155,11 +155,14 @@ class Certificate:
     ----------
     turbines, stations
         Their names, in the order in which ``proof`` counts them.
+    reason
+        Why it proves less than was asked for, where it does; a file does not say it.
     """
 
     turbines: tuple[str, ...]
     stations: tuple[str, ...]
     proof: Proof
+    reason: str = ""
 
     def __post_init__(self) -> None:
         n, k = len(self.turbines), len(self.stations)

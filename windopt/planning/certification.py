@@ -29,7 +29,7 @@ def certify(
     Returns
     -------
     Certificate
-        Of a lower bound than claimed where time or memory ran out.
+        Of a lower bound than claimed where time or memory ran out, or the user interrupts.
 
     Raises
     ------
@@ -55,5 +55,5 @@ def certify(
     )
     assigned = assigned_to(everything, plan.fleet, plan.assignment)
     instance = weighed(assigned, plan.fleet, plan.worth).subset(reached)
-    proof = prove(instance, routes, result.bound, time_limit=time_limit, memory=memory)
-    return Certificate(turbines, plan.fleet.names, proof)
+    proved = prove(instance, routes, result.bound, time_limit=time_limit, memory=memory)
+    return Certificate(turbines, plan.fleet.names, proved.proof, proved.reason)

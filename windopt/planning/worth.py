@@ -59,12 +59,12 @@ def worth_of_priorities(
             raise InvalidInput("priority", "of a turbine of the farm", repr(name))
         if not (number >= 1 and number == int(number)):
             raise InvalidInput(f"priority of {name}", "a whole number >= 1", number)
-    unit = _longest_plan(fleet, len(farm))
+    unit = unit_of_priority(fleet, len(farm))
     return tuple(float(unit * priority.get(name, 1)) for name in farm.names)
 
 
-def _longest_plan(fleet: Fleet, n: int) -> int:
-    """Return a time that all flights to n turbines together keep below [s]."""
+def unit_of_priority(fleet: Fleet, n: int) -> int:
+    """Return what a unit of priority is worth: more than all flights to n turbines last [s]."""
     stations = [(station.uav.t_max, station.max_flights) for station in fleet.stations]
     limits = sum(t_max * (n if most is None else min(n, most)) for t_max, most in stations)
     return ceil(min(limits, n * max(t_max for t_max, _ in stations))) + 1
@@ -105,7 +105,7 @@ def turbines_left_out(
         if i not in visited:
             free = bool((at_home & instance.reachable[:, i]).any())
             reason = (
-                f"It would take longer than the {instance.prize[i]:g} s that it is worth."
+                f"No flight to it was found below the {instance.prize[i]:g} s that it is worth."
                 if free
                 else "No flight is left from a station that reaches it."
             )

@@ -5,7 +5,9 @@ Told afterwards the proof is shorter: the flights that matter are those within t
 set of prices over all flights, without cuts, tells them from the rest.
 """
 
+from collections.abc import Iterator
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -19,12 +21,22 @@ from windopt.solving.exact.pool import Pool, reduced_costs
 from windopt.solving.exact.pricing import LabelsOverflow
 from windopt.solving.exact.rank_one_rows import Rows
 from windopt.solving.exact.relaxation import Relaxation
-from windopt.solving.exact.search import Search
+from windopt.solving.exact.search import Search, arrivals
 
 EFFORT = 2_000_000
 """Half flights of one side of one station to hold at most."""
 SHARES = (1.0, 0.5, 0.25, 0.1)
 """Parts of the gap to list the flights of, where those of the whole are too many."""
+PATIENCE = 0.6
+"""Part of the time left that each part of the gap may take, so that a smaller one has some too."""
+SHORT, STOPPED = "Time or memory did not suffice.", "The user stopped it."
+
+
+class Certified(NamedTuple):
+    """A proof, and why it is of less than was asked for, where it is."""
+
+    proof: Proof
+    reason: str
 
 
 def certify(
@@ -34,7 +46,7 @@ def certify(
     *,
     time_limit: float = 300.0,
     memory: float = 4e9,
-) -> Proof:
+) -> Certified:
     """Prove that no plan takes less than ``bound``.
 
     Parameters
@@ -50,30 +62,47 @@ def certify(
 
     Returns
     -------
-    The proof, of a lower bound where time or memory ran out.
+    The proof, of a lower bound where time or memory runs out or the user interrupts.
     """
     with Clock(time_limit) as clock:
         search = Search(instance, clock)
         search.offer([(route.station, route.turbines) for route in routes])
-        n = len(instance.turbines)
-        proof = Proof(0.0, np.zeros(n), np.zeros(len(instance.t) + 1), ((),) * n)
-        if n == 0:
-            return proof
+        proof, reason = _of_arrivals(search, bound), SHORT
         try:
-            relaxation = _relaxation(search, memory)
-            proof = _over_all_flights(relaxation, bound)
-            return _over_a_list(proof, relaxation, bound)
-        except (OutOfTime, LabelsOverflow, KeyboardInterrupt):
-            return proof
+            for better in _ever_better(search, bound, memory):
+                proof = better
+        except KeyboardInterrupt:
+            reason = STOPPED
+        except (OutOfTime, LabelsOverflow):
+            pass
+    return Certified(proof, reason if proof.bound < bound else "")
 
 
-def _relaxation(search: Search, memory: float) -> Relaxation:
-    """Solve the relaxation over all flights."""
+def _of_arrivals(search: Search, bound: float) -> Proof:
+    """Return what the shortest legs to each turbine prove."""
+    prices = arrivals(search.networks, search.prize) * search.unit
+    tolls = np.zeros(len(search.counts))
+    return Proof(min(bound, float(prices.sum())), prices, tolls, ((),) * search.n)
+
+
+def _ever_better(search: Search, bound: float, memory: float) -> Iterator[Proof]:
+    """Yield proofs, each of a higher bound: over all flights, then over those that matter.
+
+    Raises
+    ------
+    LabelsOverflow
+        If memory does not suffice.
+    OutOfTime
+        If time is up.
+    """
+    if search.n == 0:
+        return
     relaxation = Relaxation(search, memory, search.counts)
     relaxation.begin()
+    yield _over_all_flights(relaxation, bound)
     while relaxation.grow_neighbourhoods():
-        pass
-    return relaxation
+        yield _over_all_flights(relaxation, bound)
+    yield from _over_a_list(_over_all_flights(relaxation, bound), relaxation, bound)
 
 
 def _over_all_flights(relaxation: Relaxation, bound: float) -> Proof:
@@ -86,21 +115,27 @@ def _over_all_flights(relaxation: Relaxation, bound: float) -> Proof:
     return Proof(max(0.0, min(bound, value)), given.prices, given.tolls, neighbours)
 
 
-def _over_a_list(proof: Proof, relaxation: Relaxation, bound: float) -> Proof:
-    """List the flights within the gap, or a part of it, and prove as much over these."""
-    search, gap = relaxation.search, bound - proof.bound
+def _over_a_list(proof: Proof, relaxation: Relaxation, bound: float) -> Iterator[Proof]:
+    """Yield what the flights within the gap, or a part of it, prove beyond ``proof``."""
+    search, gap, clock = relaxation.search, bound - proof.bound, relaxation.search.clock
     if gap <= CLOSED * bound:
-        return replace(proof, bound=bound)
+        yield replace(proof, bound=bound)
+        return
     fixing = relaxation.fix_arcs(ceiling=(bound + 2 * MARGIN * bound) / search.unit)
     if fixing is None:
-        return proof
+        return
     for share in SHARES:
         target = (proof.bound + share * gap) / search.unit
-        pool = _listed(relaxation, fixing, target * (1 + MARGIN) - proof.bound / search.unit)
-        if pool is not None:
-            case = prove(_all_left(pool, relaxation), target, search)
-            return replace(proof, bound=target * search.unit, case=case)
-    return proof
+        within = target * (1 + MARGIN) - proof.bound / search.unit
+        try:
+            with Clock(PATIENCE * clock.left) as search.clock:
+                pool = _listed(relaxation, fixing, within)
+                case = None if pool is None else prove(_all_left(pool, relaxation), target, search)
+        except OutOfTime:
+            continue
+        if case is not None:
+            yield replace(proof, bound=target * search.unit, case=case)
+            return
 
 
 def _listed(relaxation: Relaxation, fixing: Fixing, gap: float) -> Pool | None:

@@ -53,7 +53,7 @@ class Search:
         self.clock = clock
         self.flights: tuple[Flight, ...] = ()
         self.objective = inf
-        self.bound = _arrivals(self.networks, self.prize)
+        self.bound = _least_time(self.networks, self.prize)
         self.lp_bound = nan  # of the first relaxation
         self.nodes = 0
         self.crowded = CrowdedSets.none(self.n)  # known to need several flights
@@ -177,11 +177,17 @@ def _counts(instance: RoutingInstance) -> Floats:
     return counts
 
 
-def _arrivals(networks: list[Network], prize: Floats) -> float:
-    """Bound any plan by the shortest leg to each turbine, or its prize, and the shortest home."""
+def arrivals(networks: list[Network], prize: Floats) -> Floats:
+    """Return the shortest leg to each turbine, or its prize if that is less; shape ``(n,)``."""
     arrive = np.min([np.minimum(net.out, net.legs.min(axis=0, initial=inf)) for net in networks], 0)
+    return np.minimum(arrive, prize)
+
+
+def _least_time(networks: list[Network], prize: Floats) -> float:
+    """Bound any plan by the arrival at each turbine and the shortest leg home."""
     home = min(float(net.back.min(initial=inf)) for net in networks)
-    return float(np.minimum(arrive, prize).sum()) + (home if np.isinf(prize).any() else 0.0)
+    arrive = float(arrivals(networks, prize).sum())
+    return arrive + (home if np.isinf(prize).any() else 0.0)
 
 
 def _obeys_triangle(network: Network) -> bool:
