@@ -180,7 +180,8 @@ def _counts(instance: RoutingInstance) -> Floats:
 def arrivals(networks: list[Network], prize: Floats) -> Floats:
     """Return the shortest leg to each turbine, or its prize if that is less; shape ``(n,)``."""
     arrive = np.min([np.minimum(net.out, net.legs.min(axis=0, initial=inf)) for net in networks], 0)
-    return np.minimum(arrive, prize)
+    least: Floats = np.minimum(arrive, prize)
+    return least
 
 
 def _least_time(networks: list[Network], prize: Floats) -> float:
