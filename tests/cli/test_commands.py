@@ -84,7 +84,7 @@ def test_a_record_edited_by_hand_fails_its_check(windopt, folder, command, edit,
 PLAN = "plan", "farm.csv", "--wind", "wind.csv"
 BAD = {
     "wind speed": ("inspect", "farm.csv", "--wind-speed", "nan", "--wind-direction", "90"),
-    "wind direction": ("yaw", "farm.csv", "--wind-speed", "8", "--wind-direction", "inf"),
+    "--wind-direction": ("yaw", "farm.csv", "--wind-speed", "8", "--wind-direction", "inf"),
     "method": ("inspect", "farm.csv", *WIND, "--method", "magic"),
     "dwell": ("inspect", "farm.csv", *WIND, "--dwell", "-1"),
     "t_max": ("inspect", "farm.csv", *WIND, "--t-max", "0"),

@@ -151,6 +151,10 @@ def test_turning_farm_and_wind_together_changes_nothing():
         ({"dwell": [1.0]}, "dwell"),
         ({"time_limit": nan}, "time_limit"),
         ({"gap": -0.1}, "gap"),
+        ({"gap": 1.0}, "gap"),
+        ({"gap": nan}, "gap"),
+        ({"memory": 1e7}, "memory"),
+        ({"memory": nan}, "memory"),
     ],
 )
 def test_bad_options_are_named(options, field):

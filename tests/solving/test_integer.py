@@ -180,6 +180,7 @@ def test_a_gap_that_is_good_enough_ends_the_search():
     ("options", "field"),
     [
         ({"gap": -0.1}, "gap"),
+        ({"gap": 1.0}, "gap"),
         ({"time_limit": -1.0}, "time_limit"),
         ({"time_limit": np.nan}, "time_limit"),
         ({"start": np.zeros(2)}, "start"),

@@ -7,6 +7,7 @@ from typing import Annotated, Any
 import typer
 
 from windopt.cli import options as opt
+from windopt.cli.checked import at_least, checked
 from windopt.cli.fleets import fleet
 from windopt.cli.terminal import Told, left_out, seconds
 from windopt.domain.farm import Farm
@@ -18,13 +19,20 @@ from windopt.planning.assignment import NEAREST, Assignment
 from windopt.planning.inspection import DEFAULT_METHOD
 from windopt.planning.search_options import MEMORY
 from windopt.planning.worth import unit_of_priority, worth_of_priorities
+from windopt.solving.limits import LEAST_MEMORY
 
 GB = 1e9
+
+
+def _require_memory(field: str, gigabytes: float) -> None:
+    if not GB * gigabytes >= LEAST_MEMORY:
+        raise InvalidInput(field, f"of at least {LEAST_MEMORY / GB:g} GB", gigabytes)
+
 
 MaxFlights = Annotated[
     int | None,
     typer.Option(
-        min=0,
+        callback=checked(at_least(0)),
         help="Flights that each station is good for; as many turbines as possible are then "
         "inspected (method exact). A column max_flights of the stations' file says it for each.",
     ),
@@ -57,7 +65,11 @@ Start = Annotated[
     Path | None, typer.Option(metavar="PLAN.json", help="An earlier plan to begin with.")
 ]
 Memory = Annotated[
-    float, typer.Option(min=0.1, help="Memory that the method exact may take for its lists [GB].")
+    float,
+    typer.Option(
+        callback=checked(_require_memory),
+        help="Memory that the method exact may take for its lists [GB].",
+    ),
 ]
 
 

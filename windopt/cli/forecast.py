@@ -12,6 +12,7 @@ import typer
 from rich.table import Table
 
 from windopt.cli import options as opt
+from windopt.cli.checked import at_least, checked, within
 from windopt.cli.terminal import err, note, out, say
 from windopt.cli.times import parsed
 from windopt.domain.wind import WindForecast, WindSeries
@@ -41,12 +42,24 @@ ModelFile = Annotated[
 ]
 Bits = Annotated[int, typer.Option(help="Bits of a weight: 32, 16, 8, 4 or 2.")]
 OutputBits = Annotated[int | None, typer.Option(help="Bits of the output layer; as --bits.")]
-Units = Annotated[int, typer.Option(min=1, help="Hidden units.")]
+Units = Annotated[int, typer.Option(callback=checked(at_least(1)), help="Hidden units.")]
 TargetName = Annotated[str, typer.Option(help="residual on persistence, or raw as in the paper.")]
-Minutes = Annotated[int, typer.Option(min=1, help="How far to look, a multiple of the step [min].")]
-Epochs = Annotated[int, typer.Option(min=1, help="Passes over the training windows at most.")]
+Minutes = Annotated[
+    int,
+    typer.Option(
+        callback=checked(at_least(1)), help="How far to look, a multiple of the step [min]."
+    ),
+]
+Epochs = Annotated[
+    int,
+    typer.Option(callback=checked(at_least(1)), help="Passes over the training windows at most."),
+]
 Holdout = Annotated[
-    float, typer.Option(min=0, max=0.9, help="Last fraction of each that evaluate tests on.")
+    float,
+    typer.Option(
+        callback=checked(within(0.0, 0.9)),
+        help="Last fraction of each that evaluate tests on, 0.9 at most.",
+    ),
 ]
 NewModel = Annotated[Path, typer.Option("--out", help="Where the trained model goes.")]
 Checkpoint = Annotated[
@@ -138,7 +151,11 @@ def evaluate(
     model: ModelFile,
     series: SeriesFile,
     test: Annotated[
-        float, typer.Option(min=0.01, max=0.99, help="Last fraction to test on.")
+        float,
+        typer.Option(
+            callback=checked(within(0.01, 0.99)),
+            help="Last fraction to test on, from 0.01 to 0.99.",
+        ),
     ] = TEST,
     time_column: opt.Column = "",
     speed_column: opt.Column = "",

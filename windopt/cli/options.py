@@ -5,10 +5,13 @@ from typing import Annotated
 
 import typer
 
+from windopt.cli.checked import at_least, checked, require_direction
+from windopt.domain.turbine import require_not_negative
 from windopt.planning.plan import FORECASTERS
 from windopt.planning.routing_methods import METHODS
 from windopt.planning.turbine_yaw import POWER_COEFFICIENTS
 from windopt.planning.yaw import METHODS as YAW_METHODS
+from windopt.solving.limits import require_gap
 
 FarmName = Annotated[
     str,
@@ -19,7 +22,11 @@ FarmName = Annotated[
 ]
 WindSpeed = Annotated[float, typer.Option(help="Wind speed [m/s].")]
 WindDirection = Annotated[
-    float, typer.Option(help="Where the wind blows from [deg], clockwise from north.")
+    float,
+    typer.Option(
+        callback=checked(require_direction),
+        help="Where the wind blows from [deg], clockwise from north.",
+    ),
 ]
 Stations = Annotated[
     str,
@@ -50,9 +57,23 @@ WindMax = Annotated[float, typer.Option(help="Strongest wind the UAVs fly in [m/
 GroundSpeedCap = Annotated[
     bool, typer.Option(help="Whether the airspeed caps the speed over ground too.")
 ]
-TimeLimit = Annotated[float, typer.Option(min=0, help="Wall-clock limit of the search [s].")]
-Gap = Annotated[float, typer.Option(min=0, help="Relative gap to stop at; 0 asks for a proof.")]
-Seed = Annotated[int, typer.Option(min=0, help="Seed of whatever is drawn at random.")]
+TimeLimit = Annotated[
+    float,
+    typer.Option(
+        callback=checked(require_not_negative), help="Wall-clock limit of the search [s]."
+    ),
+]
+Gap = Annotated[
+    float,
+    typer.Option(
+        callback=checked(require_gap),
+        help="Relative gap to stop at, below 1; 0 asks for a proof.",
+    ),
+]
+Seed = Annotated[
+    int,
+    typer.Option(callback=checked(at_least(0)), help="Seed of whatever is drawn at random."),
+]
 Json = Annotated[bool, typer.Option("--json", help="Print the record as JSON and nothing else.")]
 Out = Annotated[
     Path | None, typer.Option(help="Folder for plan.json, flights.geojson and pictures.")

@@ -7,6 +7,7 @@ from typing import Annotated, Any
 import typer
 
 from windopt.cli import options as opt
+from windopt.cli.checked import checked, require_direction
 from windopt.cli.farm_options import RotorOptions, SteeringOptions
 from windopt.cli.files import require_free, write_folder
 from windopt.cli.outcome import exit_code, print_record
@@ -22,7 +23,10 @@ from windopt.planning.yaw import DEFAULT_METHOD, plan_yaw
 
 Nacelle = Annotated[
     float | None,
-    typer.Option(help="Where every nacelle faces now [deg]; by default into the wind."),
+    typer.Option(
+        callback=checked(require_direction),
+        help="Where every nacelle faces now [deg]; by default into the wind.",
+    ),
 ]
 AirDensity = Annotated[
     float | None,

@@ -41,7 +41,8 @@ class Wind:
         speed
             Wind speed w_s [m/s], not negative.
         direction
-            Where it blows from [deg], clockwise from north; 90 is an east wind.
+            Where it blows from [deg], clockwise from north; 90 is an east wind. Whole turns change
+            nothing, so that offsets may be added freely: -90 and 630 are 270.
         """
         if not (isfinite(speed) and speed >= 0):
             raise InvalidInput("wind speed", "to be finite and >= 0 m/s", speed)

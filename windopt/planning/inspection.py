@@ -81,7 +81,7 @@ def plan_inspection(
         A plan to begin with, perhaps for another wind; what can no longer be flown of it is
         repaired or dropped. Not for heuristics.
     gap
-        Relative gap at which an exact method may stop [-].
+        Relative gap at which an exact method may stop [-], below 1.
     time_limit
         Wall-clock limit [s].
     memory

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from windopt.domain.routing import Route
 from windopt.domain.turbine import require_not_negative
-from windopt.errors import InvalidInput
+from windopt.solving.limits import require_gap, require_memory
 from windopt.trace import Progress
 
 MEMORY = 4e9
@@ -18,7 +18,7 @@ class SearchOptions:
     Parameters
     ----------
     gap
-        Relative gap at which to stop [-]; it means nothing to a heuristic.
+        Relative gap at which to stop [-], below 1; it means nothing to a heuristic.
     time_limit
         Wall-clock limit [s].
     seed
@@ -40,6 +40,5 @@ class SearchOptions:
 
     def __post_init__(self) -> None:
         require_not_negative("time_limit", self.time_limit)
-        require_not_negative("gap", self.gap)
-        if not self.memory >= 1e8:
-            raise InvalidInput("memory", "of at least 1e8 bytes", self.memory)
+        require_gap("gap", self.gap)
+        require_memory("memory", self.memory)

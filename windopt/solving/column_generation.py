@@ -15,7 +15,7 @@ from itertools import count
 from math import inf
 
 from windopt.domain.routing import Route, RoutingInstance
-from windopt.errors import InvalidInput
+from windopt.domain.turbine import require_not_negative
 from windopt.result import Effort, Result, Status
 from windopt.solving.exact.clock import Clock, OutOfTime
 from windopt.solving.exact.closing import Closing
@@ -25,6 +25,7 @@ from windopt.solving.exact.pricing import LabelsOverflow
 from windopt.solving.exact.relaxation import Relaxation
 from windopt.solving.exact.replanning import Replanning
 from windopt.solving.exact.search import Flight, Search
+from windopt.solving.limits import require_gap, require_memory
 
 EFFORT, MORE = 300_000, 2.0
 """Half flights that the first attempt to list all flights may hold, and the growth of that."""
@@ -57,7 +58,7 @@ def column_generation(
     time_limit
         Wall-clock limit [s].
     gap
-        Relative gap at which to stop [-].
+        Relative gap at which to stop [-], below 1.
     start
         A plan to improve on; one that does not keep the limits is passed over.
     memory
@@ -70,7 +71,9 @@ def column_generation(
     The best plan and the best bound found when the gap is closed, time is up, or the user
     interrupts; INFEASIBLE with the turbines that no flight can reach.
     """
-    _require_limits(time_limit, gap, memory)
+    require_not_negative("time_limit", time_limit)
+    require_gap("gap", gap)
+    require_memory("memory", memory)
     with Clock(time_limit) as clock:
         search = Search(instance, clock, gap, progress)
         if search.unreachable.size:
@@ -82,15 +85,6 @@ def column_generation(
         except KeyboardInterrupt:
             stopped = Status.INTERRUPTED
         return _result(search, stopped, lacking)
-
-
-def _require_limits(time_limit: float, gap: float, memory: float) -> None:
-    if not time_limit >= 0:
-        raise InvalidInput("time_limit", ">= 0 s", time_limit)
-    if not gap >= 0:
-        raise InvalidInput("gap", ">= 0", gap)
-    if not memory >= 1e8:
-        raise InvalidInput("memory", "of at least 1e8 bytes", memory)
 
 
 def _infeasible(search: Search) -> Result[tuple[Route, ...]]:

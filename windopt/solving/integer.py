@@ -19,8 +19,10 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from windopt.domain.turbine import require_not_negative
 from windopt.errors import InvalidInput
 from windopt.result import Result
+from windopt.solving.limits import require_gap
 from windopt.solving.rounds import IntegerProgram, Rounds
 from windopt.trace import Progress, Recorder
 
@@ -44,7 +46,7 @@ def solve(
     Parameters
     ----------
     gap
-        Relative gap at which to stop [-].
+        Relative gap at which to stop [-], below 1.
     time_limit
         Wall-clock limit over all rounds [s].
     seed, threads
@@ -57,11 +59,11 @@ def solve(
     Raises
     ------
     InvalidInput
-        If ``gap`` or ``time_limit`` is negative, or ``start`` is not of the shape of ``x``.
+        If ``gap`` is not in [0, 1), ``time_limit`` is negative, or ``start`` is not of the shape
+        of ``x``.
     """
-    for name, option in ("gap", gap), ("time_limit", time_limit):
-        if not option >= 0.0:
-            raise InvalidInput(name, ">= 0", option)
+    require_gap("gap", gap)
+    require_not_negative("time_limit", time_limit)
     if start is None:
         start = getattr(program, "start", None)
     if start is not None and start.shape != program.x.shape:
