@@ -1,5 +1,6 @@
 """What windopt says when an input cannot be used."""
 
+from collections.abc import Iterable
 from reprlib import repr as shortened
 
 
@@ -27,6 +28,13 @@ def require_kind(field: str, value: object, kind: type) -> None:
     """Raise unless ``value`` is a ``kind``: a farm, say, and not the name of one."""
     if not isinstance(value, kind):
         raise InvalidInput(field, f"to be a {kind.__name__}", shortened(value))
+
+
+def require_one_of(field: str, name: object, known: Iterable[str]) -> None:
+    """Raise unless ``name`` is one of the ``known`` ones."""
+    known = tuple(known)
+    if name not in known:
+        raise InvalidInput(field, f"to be one of {', '.join(known)}", repr(name))
 
 
 class MissingExtra(ImportError):  # noqa: N818

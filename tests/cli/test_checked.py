@@ -28,6 +28,29 @@ def test_a_number_out_of_range_is_named_with_its_value(windopt, words, sentence)
     assert (code, out, err) == (2, "", f"Expected {sentence}.\n")
 
 
+@pytest.mark.parametrize(
+    ("command", "option", "known"),
+    [
+        ("demo", "--method", "exact, time-flow"),
+        ("inspect", "--method", "exact, time-flow"),
+        ("plan", "--method", "exact, time-flow"),
+        ("plan", "--yaw-method", "nlp, serial-refine"),
+        ("yaw", "--method", "nlp, serial-refine"),
+        ("stations", "--method", "cover, k-means"),
+        ("inspect", "--rule", "exact, paper"),
+        ("plan", "--rule", "exact, paper"),
+        ("plan", "--forecaster", "lstm, autoregression"),
+        ("yaw", "--power-coefficient", "slootweg"),
+        ("stations", "--candidates", "grid, platforms"),
+    ],
+)
+def test_an_unknown_name_is_refused_before_anything_is_read(windopt, command, option, known):
+    code, out, err = windopt(command, option, "fast")
+    assert (code, out) == (2, "")
+    assert err.startswith(f"Expected {option} to be one of {known}")
+    assert err.endswith(", got 'fast'.\n")
+
+
 @pytest.mark.parametrize("direction", ["360", "-360", "-90"])
 def test_a_direction_may_be_counted_either_way_round(windopt, folder, direction):
     options = "--stations", "stations.csv", "--method", "algorithm-2"

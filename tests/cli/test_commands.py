@@ -103,7 +103,7 @@ BAD = {
     "forecaster": ("plan", "farm.csv", "--wind", "wind.csv", "--forecaster", "magic"),
     "nothing.csv": ("plan", "farm.csv", "--wind", "nothing.csv"),
     "nothing.json": ("check", "nothing.json"),
-    "power_coefficient": ("yaw", "farm.csv", *WIND, "--power-coefficient", "magic"),
+    "--power-coefficient": ("yaw", "farm.csv", *WIND, "--power-coefficient", "magic"),
     "bounds": ("yaw", "farm.csv", *WIND, "--bounds", "20", "-20"),
     "turbulence": ("yaw", "farm.csv", *WIND, "--turbulence", "0"),
     "turbulence to be a share": ("yaw", "farm.csv", *WIND, "--turbulence", "6"),

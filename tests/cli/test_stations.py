@@ -75,7 +75,7 @@ def test_k_means_says_how_many_turbines_it_leaves_out(windopt):
     ("options", "named"),
     [
         (("--method", "magic"), "--method"),
-        (("--candidates", "moon"), "candidates"),
+        (("--candidates", "moon"), "--candidates"),
         (("--candidates", "substations"), "candidates"),
         (("--margin", "1"), "margin"),
         (("--dwell=-1",), "dwell"),

@@ -138,6 +138,29 @@ def test_bad_options_are_named(options, field):
         plan(FARM, FLEET, series(), **options)
 
 
+@pytest.mark.parametrize(
+    ("options", "field"),
+    [
+        ({"method": "magic"}, "method"),
+        ({"rule": "none"}, "rule"),
+        ({"gap": 2.0}, "gap"),
+        ({"memory": np.nan}, "memory"),
+        ({"dwell": -1.0}, "dwell"),
+        ({"worth": -1.0}, "worth"),
+        ({"worth": 9.0, "method": "baseline"}, "method"),
+    ],
+)
+def test_what_flights_cannot_be_planned_with_is_refused_before_set_points(
+    monkeypatch, options, field
+):
+    def schedule(*_, **__):
+        raise AssertionError("set-points planned although flights cannot be")
+
+    monkeypatch.setattr("windopt.planning.plan.plan_schedule", schedule)
+    with pytest.raises(InvalidInput, match=f"Expected {field} "):
+        plan(FARM, FLEET, series(), **options)
+
+
 def test_a_series_too_short_to_forecast_from_is_refused():
     with pytest.raises(InvalidInput):
         plan(FARM, FLEET, series().part(slice(0, 3)))

@@ -1,11 +1,12 @@
 """Options that are refused as they are read, by the rules and in the words of the library."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
+from functools import partial
 from typing import Any
 
 import typer
 
-from windopt.errors import InvalidInput
+from windopt.errors import InvalidInput, require_one_of
 
 Rule = Callable[[str, Any], None]
 """Called with the name of an option and its value; raises :class:`InvalidInput`."""
@@ -20,6 +21,11 @@ def checked(require: Rule) -> Callable[[typer.CallbackParam, Any], Any]:
         return value
 
     return check
+
+
+def one_of(known: Iterable[str]) -> Rule:
+    """Return the rule that a name is one of the ``known`` ones."""
+    return partial(require_one_of, known=tuple(known))
 
 
 def at_least(least: int) -> Rule:

@@ -17,7 +17,9 @@ from windopt.io.plans import read_plan
 from windopt.io.turbine_tables import read_numbers, read_stations_of_turbines
 from windopt.planning.assignment import NEAREST, Assignment
 from windopt.planning.inspection import DEFAULT_METHOD
+from windopt.planning.routing_methods import chosen_method
 from windopt.planning.search_options import MEMORY
+from windopt.planning.start import inspection_of
 from windopt.planning.worth import unit_of_priority, worth_of_priorities
 from windopt.solving.limits import LEAST_MEMORY
 
@@ -106,7 +108,42 @@ class FlightOptions:
     memory: Memory = MEMORY / GB
     seed: opt.Seed = 0
 
-    def fleet(self, farm: Farm, uav: Uav) -> Fleet:
+    def asked(self, farm: Farm, uav: Uav) -> tuple[Fleet, dict[str, Any]]:
+        """Return the stations, and what else :func:`windopt.plan_inspection` is asked by keyword.
+
+        Files are read and methods are refused before stations are placed, which may take long.
+
+        Raises
+        ------
+        InvalidInput
+            If a file cannot be used, worth and priorities are both given, or the method cannot do
+            what is asked for.
+        """
+        few = self.max_flights is not None or self.priorities is not None or self.worth != ""
+        chosen_method(self.method, weighs=few, improves=self.start is not None)
+        priorities, worth = self._priorities(), self._worth(farm)
+        asked = {
+            "method": self.method,
+            "dwell": self.dwell,
+            "rule": self.rule,
+            "assignment": self._assignment(),
+            "start": None if self.start is None else inspection_of(read_plan(self.start)),
+            "gap": self.gap,
+            "time_limit": self.time_limit,
+            "memory": GB * self.memory,
+            "seed": self.seed,
+        }
+        based = self._fleet(farm, uav)
+        if priorities is not None:
+            worth = worth_of_priorities(farm, based, priorities)
+        return based, {"worth": worth, **asked}
+
+    def told(self, farm: Farm, based: Fleet) -> Told:
+        """Return what says how far a search is: in turbines, where their number comes first."""
+        first = self.priorities is not None or (based.limited and not self.worth)
+        return left_out(unit_of_priority(based, len(farm))) if first else seconds
+
+    def _fleet(self, farm: Farm, uav: Uav) -> Fleet:
         """Return the stations, each with its number of flights."""
         based = fleet(farm, self.stations, uav, dwell=self.dwell, seed=self.seed)
         if self.max_flights is None:
@@ -120,37 +157,14 @@ class FlightOptions:
             )
         )
 
-    def told(self, farm: Farm, based: Fleet) -> Told:
-        """Return what says how far a search is: in turbines, where their number comes first."""
-        first = self.priorities is not None or (based.limited and not self.worth)
-        return left_out(unit_of_priority(based, len(farm))) if first else seconds
+    def _priorities(self) -> dict[str, float] | None:
+        if self.priorities is None:
+            return None
+        if self.worth:
+            raise InvalidInput("--worth", "or --priorities", "both")
+        return read_numbers(self.priorities, "priority")
 
-    def asked(self, farm: Farm, based: Fleet) -> dict[str, Any]:
-        """Return what is asked of :func:`windopt.plan_inspection`, by keyword.
-
-        Raises
-        ------
-        InvalidInput
-            If a file cannot be used, or worth and priorities are both given.
-        """
-        return {
-            "method": self.method,
-            "dwell": self.dwell,
-            "rule": self.rule,
-            "worth": self._worth(farm, based),
-            "assignment": self._assignment(),
-            "start": None if self.start is None else read_plan(self.start),
-            "gap": self.gap,
-            "time_limit": self.time_limit,
-            "memory": GB * self.memory,
-            "seed": self.seed,
-        }
-
-    def _worth(self, farm: Farm, based: Fleet) -> float | tuple[float, ...] | None:
-        if self.priorities is not None:
-            if self.worth:
-                raise InvalidInput("--worth", "or --priorities", "both")
-            return worth_of_priorities(farm, based, read_numbers(self.priorities, "priority"))
+    def _worth(self, farm: Farm) -> float | tuple[float, ...] | None:
         if not self.worth:
             return None
         try:

@@ -35,8 +35,7 @@ def inspect(
     wind = Wind.from_met(wind_speed, wind_direction)
     site = Farm.load(farm)
     note(site.notes)
-    based = flights.fleet(site, uav.uav)
-    asked = flights.asked(site, based)
+    based, asked = flights.asked(site, uav.uav)
     tell_of_compiling(flights.method)
     task = f"Planning flights for {site.name} by {flights.method}"
     with progress(task, flights.told(site, based)) as update:

@@ -5,9 +5,10 @@ from typing import Annotated
 
 import typer
 
-from windopt.cli.checked import at_least, checked, require_direction
+from windopt.cli.checked import at_least, checked, one_of, require_direction
+from windopt.domain.plan import SpeedRule
 from windopt.domain.turbine import require_not_negative
-from windopt.planning.plan import FORECASTERS
+from windopt.planning.plan import FORECASTERS, require_forecaster
 from windopt.planning.routing_methods import METHODS
 from windopt.planning.turbine_yaw import POWER_COEFFICIENTS
 from windopt.planning.yaw import METHODS as YAW_METHODS
@@ -43,13 +44,27 @@ Time = Annotated[
 ]
 Column = Annotated[str, typer.Option(help="Name of the column; recognised by default.")]
 Dwell = Annotated[float, typer.Option(help="Time spent at each turbine [s].")]
-RoutingMethod = Annotated[str, typer.Option(help=f"One of {', '.join(METHODS)}.")]
-YawMethod = Annotated[str, typer.Option(help=f"One of {', '.join(YAW_METHODS)}.")]
+RoutingMethod = Annotated[
+    str,
+    typer.Option(callback=checked(one_of(METHODS)), help=f"One of {', '.join(METHODS)}."),
+]
+YawMethod = Annotated[
+    str,
+    typer.Option(callback=checked(one_of(YAW_METHODS)), help=f"One of {', '.join(YAW_METHODS)}."),
+]
 ForecasterName = Annotated[
-    str, typer.Option(help=f"One of {', '.join(FORECASTERS)}, or the file of a trained model.")
+    str,
+    typer.Option(
+        callback=checked(require_forecaster),
+        help=f"One of {', '.join(FORECASTERS)}, or the file of a trained model.",
+    ),
 ]
 Rule = Annotated[
-    str, typer.Option(help="How the wind bends the ground speed: exact, or as in the paper.")
+    str,
+    typer.Option(
+        callback=checked(one_of(SpeedRule)),
+        help="How the wind bends the ground speed: exact, or as in the paper.",
+    ),
 ]
 Airspeed = Annotated[float, typer.Option(help="Fastest airspeed of the UAVs [m/s].")]
 FlightTime = Annotated[float, typer.Option("--t-max", help="Longest flight [s].")]
@@ -90,7 +105,8 @@ Force = Annotated[bool, typer.Option("--force", help="Overwrite files that exist
 PowerCoefficient = Annotated[
     str | None,
     typer.Option(
-        help=f"C_p model, one of {', '.join(POWER_COEFFICIENTS)}; by default the farm's own."
+        callback=checked(one_of(POWER_COEFFICIENTS)),
+        help=f"C_p model, one of {', '.join(POWER_COEFFICIENTS)}; by default the farm's own.",
     ),
 ]
 AirDensity = Annotated[float, typer.Option(help="Air density [kg/m3].")]

@@ -50,22 +50,22 @@ def plan(
 ) -> None:
     """Forecast the wind, set the turbines for each step ahead and plan the flights."""
     require_free(out, force=force)
+    at, steering, pace = parsed(time), steered.steering, turning.pace
     series = WindSeries.read(wind, time=time_column, speed=speed_column, direction=direction_column)
     site = rotors.equipped(Farm.load(farm))
     note((*site.notes, *series.notes))
-    based = flights.fleet(site, uav.uav)
-    asked = flights.asked(site, based)
+    based, asked = flights.asked(site, uav.uav)
     tell_of_compiling(flights.method)
     with progress(f"Planning {site.name}", flights.told(site, based)) as update:
         made = make_plan(
             site,
             based,
             series,
-            time=parsed(time),
+            time=at,
             forecaster=forecaster,
             yaw_method=yaw_method,
-            steering=steered.steering,
-            pace=turning.pace,
+            steering=steering,
+            pace=pace,
             air_density=air_density,
             **asked,
             progress=update,

@@ -10,6 +10,7 @@ from rich.markup import escape
 from rich.table import Table
 
 from windopt.cli import options as opt
+from windopt.cli.checked import checked, one_of
 from windopt.cli.flight_options import UavOptions
 from windopt.cli.outcome import exit_code
 from windopt.cli.terminal import counted, note, progress, say
@@ -17,7 +18,6 @@ from windopt.cli.terminal import out as console
 from windopt.cli.unfolded import unfolded
 from windopt.domain.farm import Farm
 from windopt.domain.fleet import Fleet
-from windopt.errors import InvalidInput
 from windopt.io.plans import json_text
 from windopt.io.station_records import placement_record
 from windopt.io.stations import write_stations
@@ -36,9 +36,16 @@ Count = Annotated[
 ]
 Margin = Annotated[float, typer.Option(help="Share of a flight kept in reserve.")]
 Candidates = Annotated[
-    str, typer.Option(help=f"Where stations may be: one of {', '.join(CANDIDATES)}.")
+    str,
+    typer.Option(
+        callback=checked(one_of(CANDIDATES)),
+        help=f"Where stations may be: one of {', '.join(CANDIDATES)}.",
+    ),
 ]
-Method = Annotated[str, typer.Option(help=f"One of {', '.join(METHODS)}.")]
+Method = Annotated[
+    str,
+    typer.Option(callback=checked(one_of(METHODS)), help=f"One of {', '.join(METHODS)}."),
+]
 File = Annotated[
     Path | None, typer.Option(metavar="FILE", help="CSV file for inspect and plan --stations.")
 ]
@@ -63,8 +70,6 @@ def stations(
     """Find the fewest stations that reach every turbine, and of as many the quickest."""
     if out is not None:
         require_absent(out, force=force)
-    if method not in METHODS:
-        raise InvalidInput("--method", f"to be one of {', '.join(METHODS)}", repr(method))
     site = Farm.load(farm)
     note(site.notes)
     design = station_design(site, uav=uav.uav, dwell=dwell, margin=margin)

@@ -13,20 +13,14 @@ from windopt.domain.fleet import Fleet
 from windopt.domain.plan import Flight, InspectionPlan, SpeedRule
 from windopt.domain.routing import Route, RoutingInstance
 from windopt.domain.wind import Wind
-from windopt.errors import FailedCheck, InvalidInput, require_kind
+from windopt.errors import FailedCheck, require_kind, require_one_of
 from windopt.planning.assignment import Assignment, assigned_to, stations_of_turbines
 from windopt.planning.reach import (
     dwell_per_turbine,
     routing_instance,
     unreachable_turbines,
 )
-from windopt.planning.routing_methods import (
-    IMPROVES,
-    METHODS,
-    OwnMethod,
-    RoutingMethod,
-    by_keywords,
-)
+from windopt.planning.routing_methods import OwnMethod, chosen_method
 from windopt.planning.search_options import MEMORY, SearchOptions
 from windopt.planning.start import Start, inspection_of, routes_of
 from windopt.planning.worth import turbines_left_out, weighed, worth_per_turbine
@@ -111,10 +105,11 @@ def plan_inspection(
     require_kind("wind", wind, Wind)
     began, recorder = perf_counter(), Recorder(progress)
     options = SearchOptions(gap, time_limit, seed, memory, progress=recorder)
-    rule = _rule(rule)
+    require_one_of("rule", rule, SpeedRule)
+    rule = SpeedRule(rule)
     dwells = dwell_per_turbine(farm, dwell)
     worths = worth_per_turbine(farm, fleet, worth)
-    solve = _chosen(method, partial=worths is not None, improves=start is not None)
+    solve = chosen_method(method, weighs=worths is not None, improves=start is not None)
     everything = routing_instance(farm, fleet, wind, dwell=dwells, rule=rule)
     assigned = stations_of_turbines(farm, fleet, assignment, everything)
     everything = weighed(assigned_to(everything, fleet, assigned), fleet, worths)
@@ -141,25 +136,6 @@ def plan_inspection(
         _assert_sound(result)
     trace = recorder.until(result.objective, result.bound)
     return replace(result, runtime=perf_counter() - began, trace=trace)
-
-
-def _chosen(method: str | OwnMethod, *, partial: bool, improves: bool) -> RoutingMethod:
-    """Return a method that can leave turbines out, or begin with a plan, if need be."""
-    name = method if isinstance(method, str) else "a function"
-    if isinstance(method, str) and method not in METHODS:
-        raise InvalidInput("method", f"to be one of {', '.join(METHODS)}", repr(method))
-    if partial and name != "exact":
-        raise InvalidInput("method", "exact where flights are few or turbines have a worth", name)
-    if improves and name not in IMPROVES:
-        raise InvalidInput("method", f"to be one of {', '.join(IMPROVES)} with a start", name)
-    return METHODS[method] if isinstance(method, str) else by_keywords(method)
-
-
-def _rule(rule: SpeedRule | str) -> SpeedRule:
-    try:
-        return SpeedRule(rule)
-    except ValueError:
-        raise InvalidInput("rule", f"to be one of {', '.join(SpeedRule)}", repr(rule)) from None
 
 
 def _flights(

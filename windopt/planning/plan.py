@@ -10,19 +10,21 @@ from windopt.domain.fleet import Fleet
 from windopt.domain.plan import Plan, SpeedRule
 from windopt.domain.power_curve import STANDARD_AIR_DENSITY
 from windopt.domain.steering import Pace, Steering
-from windopt.domain.turbine import require_not_negative
 from windopt.domain.wind import WindSeries
-from windopt.errors import InvalidInput, require_kind
+from windopt.errors import InvalidInput, require_kind, require_one_of
 from windopt.forecasting.autoregression import LinearAutoregression
 from windopt.forecasting.forecaster import Forecaster
 from windopt.forecasting.lstm import EdgeForecaster
 from windopt.forecasting.persistence import Persistence
 from windopt.planning.assignment import Assignment
 from windopt.planning.inspection import DEFAULT_METHOD, plan_inspection
+from windopt.planning.reach import dwell_per_turbine
+from windopt.planning.routing_methods import chosen_method
 from windopt.planning.schedule import METHOD as DEFAULT_YAW_METHOD
 from windopt.planning.schedule import plan_schedule, stopped
-from windopt.planning.search_options import MEMORY
-from windopt.planning.start import Start
+from windopt.planning.search_options import MEMORY, SearchOptions
+from windopt.planning.start import Start, inspection_of
+from windopt.planning.worth import worth_per_turbine
 from windopt.trace import Progress
 
 FORECASTERS: dict[str, Callable[[], Forecaster]] = {
@@ -33,6 +35,9 @@ FORECASTERS: dict[str, Callable[[], Forecaster]] = {
 """Forecasters by the name they are chosen by."""
 
 DEFAULT_FORECASTER = "lstm"
+
+MODEL = ".npz"
+"""How the file of a trained model ends."""
 
 YAW_SHARE = 0.5
 """Share of the time limit that the set-points may use; flights have all that is left of it."""
@@ -104,7 +109,12 @@ def plan(
     require_kind("fleet", fleet, Fleet)
     require_kind("series", series, WindSeries)
     begin = perf_counter()
-    require_not_negative("time_limit", time_limit)
+    # What flights cannot be planned with is refused before set-points take half of the time.
+    SearchOptions(gap, time_limit, seed, memory)
+    require_one_of("rule", rule, SpeedRule)
+    dwells, worths = dwell_per_turbine(farm, dwell), worth_per_turbine(farm, fleet, worth)
+    chosen_method(method, weighs=worths is not None, improves=start is not None)
+    start = None if start is None else inspection_of(start)
     pace = pace or Pace()
     known = series if time is None else series.until(time)
     forecast = _fitted(forecaster, known).predict(known)
@@ -125,9 +135,9 @@ def plan(
         fleet,
         forecast.mean,
         method=method,
-        dwell=dwell,
+        dwell=dwells,
         rule=rule,
-        worth=worth,
+        worth=worths,
         assignment=assignment,
         start=start,
         gap=gap,
@@ -139,15 +149,19 @@ def plan(
     return Plan(forecast.issued, forecast, yaw, inspection, pace)
 
 
+def require_forecaster(field: str, name: str) -> None:
+    """Raise unless ``name`` is that of a forecaster or of a model's file."""
+    if name not in FORECASTERS and not name.endswith(MODEL):
+        expected = f"to be one of {', '.join(FORECASTERS)}, or a model's {MODEL} file"
+        raise InvalidInput(field, expected, repr(name))
+
+
 def _fitted(forecaster: Forecaster | str, known: WindSeries) -> Forecaster:
     if not isinstance(forecaster, str):
         return forecaster
-    if forecaster.endswith(".npz"):
+    require_forecaster("forecaster", forecaster)
+    if forecaster.endswith(MODEL):
         return EdgeForecaster.load(forecaster)
-    if forecaster not in FORECASTERS:
-        names = ", ".join(FORECASTERS)
-        expected = f"to be one of {names}, or a model's .npz file"
-        raise InvalidInput("forecaster", expected, repr(forecaster))
     return FORECASTERS[forecaster]().fit(known)
 
 

@@ -12,6 +12,7 @@ from typing import Any, Protocol
 from formulations.route_indexed import RouteIndexed, route_indexed
 from formulations.time_flow import TimeFlow, time_flow
 from windopt.domain.routing import Route, RoutingInstance
+from windopt.errors import InvalidInput, require_one_of
 from windopt.heuristics.algorithm_2 import algorithm_2
 from windopt.heuristics.baseline import baseline
 from windopt.heuristics.relaxation import NAME, least_total_time
@@ -215,3 +216,30 @@ METHODS: dict[str, RoutingMethod] = {
 
 IMPROVES = ("exact", "time-flow", "route-indexed")
 """Methods that begin with a plan where one is given."""
+
+
+def chosen_method(
+    method: str | OwnMethod, *, weighs: bool = False, improves: bool = False
+) -> RoutingMethod:
+    """Return the method of a name, or a function as a method.
+
+    Parameters
+    ----------
+    weighs
+        Whether it has to leave out turbines that are not worth their time.
+    improves
+        Whether it has to begin with a plan.
+
+    Raises
+    ------
+    InvalidInput
+        If the name is unknown, or the method cannot do what it has to.
+    """
+    if isinstance(method, str):
+        require_one_of("method", method, METHODS)
+    name = method if isinstance(method, str) else "a function"
+    if weighs and name != "exact":
+        raise InvalidInput("method", "exact where flights are few or turbines have a worth", name)
+    if improves and name not in IMPROVES:
+        raise InvalidInput("method", f"to be one of {', '.join(IMPROVES)} with a start", name)
+    return METHODS[method] if isinstance(method, str) else by_keywords(method)

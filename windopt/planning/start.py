@@ -5,7 +5,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from windopt.domain.fleet import Fleet
-from windopt.domain.plan import Flight, InspectionPlan, Plan
+from windopt.domain.plan import Flight, InspectionPlan, Plan, YawPlan
 from windopt.domain.routing import Route, RoutingInstance
 from windopt.errors import InvalidInput
 from windopt.heuristics.splitting import split_optimally
@@ -14,7 +14,7 @@ from windopt.result import Result
 Start = InspectionPlan | Result[InspectionPlan] | Plan
 
 
-def inspection_of(start: Start) -> InspectionPlan:
+def inspection_of(start: Start | Result[YawPlan]) -> InspectionPlan:
     """Return the flights of whatever plan is given.
 
     Raises

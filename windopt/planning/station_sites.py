@@ -5,7 +5,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from windopt.errors import InvalidInput
+from windopt.errors import InvalidInput, require_one_of
 from windopt.heuristics.placement import place_stations
 from windopt.planning.station_design import StationDesign
 
@@ -71,9 +71,7 @@ def candidate_sites(design: StationDesign, candidates: str | Floats, *, seed: in
         If the name is unknown, there are no sites or they are not finite.
     """
     if isinstance(candidates, str):
-        if candidates not in CANDIDATES:
-            known = ", ".join(CANDIDATES)
-            raise InvalidInput("candidates", f"to be one of {known}", repr(candidates))
+        require_one_of("candidates", candidates, CANDIDATES)
         sites = CANDIDATES[candidates](design, seed)
     else:
         sites = np.asarray(candidates, dtype=float)

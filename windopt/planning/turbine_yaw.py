@@ -26,7 +26,7 @@ from windopt.domain.plan import SetPoint, YawPlan
 from windopt.domain.turbine import TurbineType, require_positive
 from windopt.domain.wind import Wind
 from windopt.domain.yaw_problem import GAP
-from windopt.errors import InvalidInput, require_kind
+from windopt.errors import InvalidInput, require_kind, require_one_of
 from windopt.heuristics.algorithm_1 import algorithm_1, exceeds_rated
 from windopt.result import Result, Status
 from windopt.solving import nonlinear
@@ -53,9 +53,7 @@ class _Case:
     rho: float
 
     def __post_init__(self) -> None:
-        name = self.type.power_coefficient
-        if name not in MODELS:
-            raise InvalidInput("power_coefficient", f"to be one of {', '.join(MODELS)}", repr(name))
+        require_one_of("power_coefficient", self.type.power_coefficient, MODELS)
 
     @property
     def model(self) -> PowerCoefficient:
@@ -139,8 +137,7 @@ def plan_turbine_yaw(
     require_kind("farm", farm, Farm)
     require_kind("wind", wind, Wind)
     begin = perf_counter()
-    if method not in METHODS:
-        raise InvalidInput("method", f"to be one of {', '.join(METHODS)}", repr(method))
+    require_one_of("method", method, METHODS)
     if isnan(time_limit) or time_limit < 0:
         raise InvalidInput("time_limit", ">= 0 s", time_limit)
     require_positive("air_density", air_density)

@@ -24,7 +24,7 @@ from windopt.domain.steering import Steering, yaw_problem
 from windopt.domain.turbine import TurbineType, require_positive
 from windopt.domain.wind import Wind
 from windopt.domain.yaw_problem import GAP, YawProblem
-from windopt.errors import FailedCheck, InvalidInput, require_kind
+from windopt.errors import FailedCheck, InvalidInput, require_kind, require_one_of
 from windopt.heuristics.algorithm_1 import face_or_hold
 from windopt.heuristics.serial_refine import serial_refine
 from windopt.planning.turbine_yaw import present_misalignments
@@ -61,8 +61,7 @@ def method_named(name: str) -> YawMethod:
     InvalidInput
         If there is none.
     """
-    if name not in METHODS:
-        raise InvalidInput("method", f"to be one of {', '.join(METHODS)}", repr(name))
+    require_one_of("method", name, METHODS)
     return METHODS[name]
 
 
@@ -186,8 +185,8 @@ def judged_plan(
 def curve_of(type_: TurbineType) -> PowerCurve:
     """Return a turbine's power curve, from its C_p model where none is published."""
     name = type_.power_coefficient
-    if type_.curve is None and name not in MODELS:
-        raise InvalidInput("power_coefficient", f"to be one of {', '.join(MODELS)}", repr(name))
+    if type_.curve is None:
+        require_one_of("power_coefficient", name, MODELS)
     return type_.curve or type_.curve_by(MODELS[name].best().C_p)
 
 
