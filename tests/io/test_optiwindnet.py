@@ -46,11 +46,35 @@ def test_coordinates_that_cannot_be_metres_are_noted():
 
 
 @pytest.mark.parametrize(
-    ("name", "hint"), [("Hornsee 2", "Hornsea 2"), ("walny", "Walney"), ("xqzw", "a file")]
+    ("name", "hint"),
+    [
+        ("Hornsee 2", "like Hornsea 2, "),
+        ("walny", "like Walney, "),
+        ("Horns rev", "like Horns Rev 3, Horns Rev 2, Horns Rev 1"),
+        ("xqzw", "OptiWindNet (windopt"),
+    ],
 )
 def test_an_unknown_name_lists_those_that_come_close(name, hint):
-    with pytest.raises(InvalidInput, match=hint):
+    with pytest.raises(InvalidInput) as refused:
         load_farm(name)
+    told = str(refused.value)
+    assert hint in told
+    assert "a file that exists, Walney (built in) or the name of a farm of OptiWindNet" in told
+    assert "optiwindnet_names() lists all" in told
+    assert told.endswith(f", got {name!r}.")
+
+
+def test_every_farm_that_comes_close_is_named_once():
+    with pytest.raises(InvalidInput) as refused:
+        load_farm("Thanett")
+    assert str(refused.value).count("hanet") == 2  # once as it was typed
+
+
+def test_all_farms_are_listed_in_order():
+    names = optiwindnet.optiwindnet_names()
+    assert len(names) == len(REPOSITORY)
+    assert list(names) == sorted(names)
+    assert load_farm(names[-1]).name == names[-1]
 
 
 def without(monkeypatch, module):
@@ -62,8 +86,10 @@ def without(monkeypatch, module):
 
 def test_without_optiwindnet_the_extra_is_named(monkeypatch):
     without(monkeypatch, "optiwindnet")
-    with pytest.raises(MissingExtra, match=r"'Thanet' needs an extra.*windopt\[farms\]"):
+    with pytest.raises(MissingExtra, match=r"'Thanet' and only Walney is .*windopt\[farms\]"):
         load_farm("Thanet")
+    with pytest.raises(MissingExtra, match=r"windopt\[farms\]"):
+        optiwindnet.optiwindnet_names()
     assert len(load_farm("walney")) == 189
 
 

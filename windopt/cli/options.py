@@ -18,7 +18,8 @@ FarmName = Annotated[
     str,
     typer.Argument(
         metavar="FARM",
-        help="Walney (built in), a farm of OptiWindNet by name, or a windIO, FLORIS or CSV file.",
+        help="Walney (built in), a farm of OptiWindNet by name (extra farms), or a windIO, FLORIS "
+        "or CSV file.",
     ),
 ]
 WindSpeed = Annotated[float, typer.Option(help="Wind speed [m/s].")]

@@ -26,7 +26,7 @@ def load_farm(source: str | Path) -> Farm:
         raise InvalidInput("farm file", f"to end in {', '.join((*DOCUMENTS, *TABLES))}", source)
     if name.strip() == WALNEY.lower():
         return built_in_farm()
-    return optiwindnet_farm(source, also_known=[WALNEY])
+    return optiwindnet_farm(source)
 
 
 def farm_from_yaml(path: str | Path) -> Farm:

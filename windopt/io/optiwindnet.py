@@ -1,7 +1,7 @@
 """Farms of the OptiWindNet repository: about 110 real layouts and a few from the literature."""
 
 import warnings
-from collections.abc import Iterable
+from collections.abc import Mapping
 from difflib import get_close_matches
 from functools import cache
 from importlib.metadata import version
@@ -12,6 +12,7 @@ import numpy as np
 from windopt.domain.farm import Farm
 from windopt.domain.turbine import Turbine
 from windopt.errors import InvalidInput, MissingExtra
+from windopt.io.built_in import WALNEY
 from windopt.io.coordinates import utm_crs
 from windopt.io.turbine_names import distinct_names
 from windopt.io.turbine_types import types_by_rating
@@ -30,45 +31,62 @@ def _repository() -> tuple[Any, ...]:
         return tuple(load_repository())
 
 
-def optiwindnet_farm(name: str, also_known: Iterable[str] = ()) -> Farm:
+def _graphs(feature: str) -> tuple[Any, ...]:
+    """Return OptiWindNet's farms, or say that ``feature`` needs them."""
+    try:
+        return _repository()
+    except ModuleNotFoundError as missing:
+        if missing.name != "optiwindnet":
+            raise
+        raise MissingExtra(feature, "farms") from None
+
+
+def optiwindnet_farm(name: str) -> Farm:
     """Load one of OptiWindNet's farms.
 
     Parameters
     ----------
     name
         The farm's name or handle, such as ``"Horns Rev 1"`` or ``"horns"``; case does not matter.
-    also_known
-        Further names to list if ``name`` is unknown.
 
     Raises
     ------
     InvalidInput
-        If no farm is so called, with the names that come close.
+        If no farm is so called, with the names that come close and where all are listed.
     MissingExtra
         If OptiWindNet is not installed.
     """
-    try:
-        repository = _repository()
-    except ModuleNotFoundError as missing:
-        if missing.name != "optiwindnet":
-            raise
-        raise MissingExtra(f"The farm {name!r}", "farms") from None
-    names: dict[str, Any] = {}
-    for graph in repository:
-        names.setdefault(graph.graph["handle"], graph)
-        names[graph.graph["name"]] = graph
-    known = {known.casefold(): known for known in (*also_known, *names)}
+    unknown = f"No file is called {name!r} and only {WALNEY} is built in; a farm of OptiWindNet"
+    farms: dict[str, Any] = {}
+    for graph in _graphs(unknown):
+        farms.setdefault(graph.graph["handle"].casefold(), graph)
+        farms[graph.graph["name"].casefold()] = graph
     key = name.strip().casefold()
-    if key not in known or known[key] not in names:
-        close = [known[k] for k in get_close_matches(key, known, n=5)]
-        alike = f" (alike: {', '.join(close)})" if close else ""
-        raise InvalidInput("farm", f"to be a file, or a farm of OptiWindNet{alike}", repr(name))
-    return _farm(names[known[key]])
+    if key not in farms:
+        names = {word: graph.graph["name"] for word, graph in farms.items()}
+        raise InvalidInput("farm", _expected(key, names | {WALNEY.casefold(): WALNEY}), repr(name))
+    return _farm(farms[key])
+
+
+def _expected(key: str, names: Mapping[str, str]) -> str:
+    """Return what a farm may be, with the names of those that are written much like ``key``."""
+    close = dict.fromkeys(names[word] for word in get_close_matches(key, names, n=5))
+    alike = f"like {', '.join(close)}; " if close else ""
+    listed = "windopt.io.optiwindnet.optiwindnet_names() lists all"
+    return (
+        f"to be a file that exists, {WALNEY} (built in) or the name of a farm of OptiWindNet "
+        f"({alike}{listed})"
+    )
+
+
+def optiwindnet_names() -> tuple[str, ...]:
+    """Return the names of OptiWindNet's farms, in order of the alphabet."""
+    return tuple(sorted(graph.graph["name"] for graph in _graphs("A list of farms")))
 
 
 def optiwindnet_sizes() -> dict[str, int]:
     """Return how many turbines each of OptiWindNet's farms has that stand on the map, by handle."""
-    facts = (graph.graph for graph in _repository())
+    facts = (graph.graph for graph in _graphs("A list of farms"))
     return {farm["handle"]: farm["T"] for farm in facts if "utm_zone_number" in farm}
 
 
