@@ -1,10 +1,12 @@
 """``windopt stations``: what it prints, writes and exits with."""
 
 import json
+from math import inf
 
 import pytest
 
 from windopt.io.stations import read_stations
+from windopt.result import Result, Status
 
 FARM = "name,x,y\nA1,0,0\nA2,600,0\nA3,1200,0\nB1,0,700\nB2,600,700\nC1,12000,0\n"
 WIND = "--wind-speed", "10", "--wind-direction", "90"
@@ -104,7 +106,35 @@ def test_inspect_places_fewer_stations_by_k_means_and_says_so(windopt):
     assert json.loads(out)["unreachable"] == ["C1"]
 
 
-def test_inspect_asks_for_stations_where_none_can_be_placed(windopt):
-    code, _, err = windopt("inspect", "farm.csv", *WIND, "--dwell", "1060")
+LIMIT = (
+    "Expected --dwell <= 1026 s, as stations are placed so that 5 % of --t-max is left on landing"
+)
+
+
+@pytest.mark.parametrize(
+    ("dwell", "sentence"),
+    [
+        ("1060", f"{LIMIT}, or --stations of your own, got 1060."),
+        ("2000", f"{LIMIT}, got 2000."),
+    ],
+)
+def test_inspect_says_why_no_stations_can_be_placed_and_what_to_change(windopt, dwell, sentence):
+    code, _, err = windopt("inspect", "farm.csv", *WIND, "--dwell", dwell)
     assert code == 2
-    assert "turbine A1" in err
+    assert err.splitlines()[-1] == sentence
+
+
+def test_inspect_asks_for_stations_where_time_does_not_suffice_to_place_them(windopt, monkeypatch):
+    nothing = Result(Status.NO_SOLUTION, None, inf, 1.0, 60.0)
+    monkeypatch.setattr("windopt.cli.fleets.stations_by_cover", lambda *_, **__: nothing)
+    code, _, err = windopt("inspect", "farm.csv", *WIND)
+    assert code == 2
+    assert "--stations to be given, as the search for them ended early, got none." in err
+
+
+def test_stations_of_your_own_take_a_dwell_without_reserve(windopt, tmp_path):
+    (tmp_path / "feet.csv").write_text(FARM.replace("name", "id"), encoding="utf-8")
+    longest = "--dwell", "1060", "--stations", "feet.csv", "--method", "algorithm-2"
+    code, out, _ = windopt("inspect", "farm.csv", *WIND, *longest)
+    assert code == 0
+    assert "Unreachable" not in out

@@ -8,6 +8,7 @@ from windopt.domain.fleet import Fleet, Uav
 from windopt.errors import InvalidInput
 from windopt.io.built_in import built_in_farm, built_in_stations
 from windopt.io.stations import read_stations
+from windopt.planning.station_design import MARGIN
 from windopt.planning.stations import stations_by_cover, stations_by_k_means
 
 
@@ -17,7 +18,7 @@ def fleet(farm: Farm, stations: str, uav: Uav, *, dwell: float, seed: int) -> Fl
     Raises
     ------
     InvalidInput
-        If ``stations`` is neither a number nor a file that exists.
+        If ``stations`` is neither a number nor a file that exists, or none can be placed.
     """
     if not stations:
         return _by_default(farm, uav, dwell=dwell, seed=seed)
@@ -38,13 +39,23 @@ def _number(text: str) -> int | None:
 def _by_default(farm: Farm, uav: Uav, *, dwell: float, seed: int) -> Fleet:
     if farm == built_in_farm():
         return built_in_stations(uav)
+    _require_short(dwell, uav)
     placed = stations_by_cover(farm, uav=uav, dwell=dwell, seed=seed)
     if placed.solution is None:
-        raise InvalidInput("--stations", "to be given, as none could be placed", placed.reason)
+        raise InvalidInput("--stations", "to be given, as the search for them ended early", "none")
     fewest = counted(len(placed.solution), "station")
     reach = "the fewest that reach every turbine in the winds they are designed for"
     note((f"{fewest} placed, {reach}; name your own with --stations.",))
     return placed.solution
+
+
+def _require_short(dwell: float, uav: Uav) -> None:
+    """Refuse a dwell that leaves no flight the reserve for which stations are placed."""
+    longest = (1 - MARGIN) * uav.t_max
+    if dwell > longest:
+        why = f"as stations are placed so that {100 * MARGIN:g} % of --t-max is left on landing"
+        own = ", or --stations of your own" if dwell < uav.t_max else ""
+        raise InvalidInput("--dwell", f"<= {longest:g} s, {why}{own}", f"{dwell:g}")
 
 
 def _as_many(farm: Farm, count: int, uav: Uav, *, dwell: float, seed: int) -> Fleet:
