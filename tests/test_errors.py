@@ -5,6 +5,7 @@ import pytest
 
 import windopt
 from windopt import Farm, Fleet, InvalidInput, Station, Turbine, Wind, WindSeries
+from windopt.errors import listed
 from windopt.planning.schedule import plan_schedule
 from windopt.planning.yaw_table import plan_yaw_table
 
@@ -38,3 +39,16 @@ def test_what_is_of_another_kind_is_named(name, field, wrong):
     function, right = FUNCTIONS[name]
     with pytest.raises(InvalidInput, match=f"Expected {field} to be a .*, got {wrong!r}"):
         function(**right | {field: wrong})
+
+
+@pytest.mark.parametrize(
+    ("names", "sentence"),
+    [
+        ("A", "A"),
+        ("AB", "A, B"),
+        ("ABCDE", "A, B, C, D, E"),
+        ("ABCDEFG", "A, B, C, D, E and 2 more"),
+    ],
+)
+def test_of_many_names_a_few_are_told(names, sentence):
+    assert listed(tuple(names)) == sentence

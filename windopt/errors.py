@@ -1,6 +1,6 @@
 """What windopt says when an input cannot be used."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from reprlib import repr as shortened
 
 
@@ -35,6 +35,12 @@ def require_one_of(field: str, name: object, known: Iterable[str]) -> None:
     known = tuple(known)
     if name not in known:
         raise InvalidInput(field, f"to be one of {', '.join(known)}", repr(name))
+
+
+def listed(names: Sequence[str], most: int = 5) -> str:
+    """Return the first names, and how many more there are: A1, A2 and 7 more."""
+    told = ", ".join(names[:most])
+    return told if len(names) <= most else f"{told} and {len(names) - most} more"
 
 
 class MissingExtra(ImportError):  # noqa: N818

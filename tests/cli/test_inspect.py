@@ -107,7 +107,18 @@ def test_a_plan_is_a_start_in_another_wind(windopt, folder):
     assert again["objective"] == pytest.approx(first["objective"])
     other = "inspect", "farm.csv", "--wind-speed", "12", "--wind-direction", "200", "--json"
     words = "--stations", "stations.csv", "--method", "exact", "--start", "first/plan.json"
-    assert windopt(*other, *words)[0] == 0
+    code, out, err = windopt(*other, *words)
+    assert code == 0
+    assert "Starting from the earlier plan: " in err
+    assert "Starting" not in out
+
+
+def test_a_start_from_other_stations_is_told_the_fleets(windopt, folder):
+    planned(windopt, folder, "--out", "first")
+    (folder / "stations.csv").write_text("id,x,y\nNorth,500,300\n", encoding="utf-8")
+    code, _, err = windopt(*CHOICE, "--start", "first/plan.json")
+    assert code == 2
+    assert "start to fly from the fleet's stations, North, got 'S1'." in err
 
 
 @pytest.mark.parametrize(

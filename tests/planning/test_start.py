@@ -42,6 +42,26 @@ def test_a_plan_for_another_wind_is_repaired(method, direction):
     planned(wind=stronger, method=method, start=BEST.found(), time_limit=0.0)
 
 
+def told(caplog, start, **options):
+    """Return what is logged of a start."""
+    with caplog.at_level("INFO", logger="windopt.start"):
+        planned(start=start, time_limit=0.0, **options)
+    return caplog.messages
+
+
+def test_it_is_told_what_a_start_amounts_to(caplog):
+    flights = len(BEST.found().flights)
+    duration = f"{BEST.objective:.2f} s in this wind, {flights} of its {flights} flights"
+    assert told(caplog, BEST) == [f"Starting from the earlier plan: {duration} as they were."]
+
+
+def test_it_is_told_how_much_of_a_start_had_to_change(caplog):
+    flights = len(BEST.found().flights)
+    slower = Fleet(tuple(replace(s, uav=Uav(t_max=400.0)) for s in FLEET.stations))
+    (sentence,) = told(caplog, BEST, fleet=slower)
+    assert f" 0 of its {flights} flights as they were." in sentence
+
+
 def test_new_turbines_are_flown_to_and_lost_ones_are_left():
     fewer = replace(FARM, turbines=FARM.turbines[:-2])
     grown = planned(start=planned(farm=fewer), time_limit=0.0)
@@ -73,8 +93,14 @@ def test_names_must_match():
     with pytest.raises(InvalidInput, match="start to visit turbines of the farm"):
         planned(farm=renamed, start=BEST)
     moved = Fleet((replace(FLEET.stations[0], name="C"),))
-    with pytest.raises(InvalidInput, match="start to fly from the fleet's stations"):
+    with pytest.raises(InvalidInput, match="start to fly from the fleet's stations, C, got 'A'"):
         planned(fleet=moved, start=BEST)
+
+
+def test_of_many_stations_a_few_are_named():
+    many = Fleet(tuple(Station(f"S{i}", 100.0 * i, 0.0) for i in range(1, 10)))
+    with pytest.raises(InvalidInput, match=r"stations, S1, S2, S3, S4, S5 and 4 more, got 'A'"):
+        planned(fleet=many, start=BEST)
 
 
 def test_a_plan_without_flights_is_refused():

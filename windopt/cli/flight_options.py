@@ -12,7 +12,7 @@ from windopt.cli.fleets import fleet
 from windopt.cli.terminal import Told, left_out, seconds
 from windopt.domain.farm import Farm
 from windopt.domain.fleet import FALCON_8, Fleet, Uav
-from windopt.errors import InvalidInput
+from windopt.errors import InvalidInput, listed
 from windopt.io.plans import read_plan
 from windopt.io.turbine_tables import read_numbers, read_stations_of_turbines
 from windopt.planning.assignment import NEAREST, Assignment
@@ -172,7 +172,7 @@ class FlightOptions:
         except ValueError:
             table = read_numbers(_file("--worth", "a number", self.worth), "worth")
         if table.keys() != set(farm.names):
-            other = ", ".join(sorted(table.keys() ^ set(farm.names))[:5])
+            other = listed(sorted(table.keys() ^ set(farm.names)))
             raise InvalidInput("--worth", "to name each turbine of the farm and no other", other)
         return tuple(table[name] for name in farm.names)
 

@@ -9,11 +9,12 @@ from windopt.cli.files import require_free, write_folder
 from windopt.cli.flight_options import FlightOptions, UavOptions
 from windopt.cli.outcome import exit_code, print_record
 from windopt.cli.summaries import show_inspection
-from windopt.cli.terminal import note, progress
+from windopt.cli.terminal import note, overheard, progress
 from windopt.cli.unfolded import unfolded
 from windopt.domain.farm import Farm
 from windopt.domain.wind import Wind
 from windopt.planning.inspection import plan_inspection
+from windopt.planning.start import LOGGER
 
 
 @unfolded
@@ -38,7 +39,7 @@ def inspect(
     based, asked = flights.asked(site, uav.uav)
     tell_of_compiling(flights.method)
     task = f"Planning flights for {site.name} by {flights.method}"
-    with progress(task, flights.told(site, based)) as update:
+    with overheard(LOGGER), progress(task, flights.told(site, based)) as update:
         result = plan_inspection(site, based, wind, **asked, progress=update)
     if json:
         print_record(result)

@@ -12,7 +12,7 @@ from windopt.cli.files import require_free, write_folder
 from windopt.cli.flight_options import FlightOptions, UavOptions
 from windopt.cli.outcome import exit_code, print_record
 from windopt.cli.summaries import show_plan
-from windopt.cli.terminal import note, progress
+from windopt.cli.terminal import note, overheard, progress
 from windopt.cli.times import parsed
 from windopt.cli.unfolded import unfolded
 from windopt.domain.farm import Farm
@@ -21,6 +21,7 @@ from windopt.domain.wind import WindSeries
 from windopt.planning.plan import DEFAULT_FORECASTER
 from windopt.planning.plan import plan as make_plan
 from windopt.planning.schedule import METHOD as DEFAULT_YAW_METHOD
+from windopt.planning.start import LOGGER
 
 WindFile = Annotated[
     Path, typer.Option("--wind", help="CSV file with time, speed and direction, or WIND Toolkit's.")
@@ -56,7 +57,8 @@ def plan(
     note((*site.notes, *series.notes))
     based, asked = flights.asked(site, uav.uav)
     tell_of_compiling(flights.method)
-    with progress(f"Planning {site.name}", flights.told(site, based)) as update:
+    told = flights.told(site, based)
+    with overheard(LOGGER), progress(f"Planning {site.name}", told) as update:
         made = make_plan(
             site,
             based,

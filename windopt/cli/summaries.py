@@ -8,6 +8,7 @@ from rich.table import Table
 
 from windopt.cli.terminal import counted, out, percent, say
 from windopt.domain.plan import InspectionPlan, LeftOut, Plan, Unreachable, YawPlan
+from windopt.errors import listed
 from windopt.planning.coverage import Coverage, coverage
 from windopt.result import Result
 
@@ -110,8 +111,7 @@ def show_yaw(result: Result[YawPlan]) -> None:
     columns = "turbines", "nacelle (deg)", "misalignment (deg)", "pitch (deg)", "power (MW)"
     table = Table(*(c for c in columns if plan.steering is None or not c.startswith("pitch")))
     for row, names in _alike(plan).items():
-        told = ", ".join(names[:4]) + (f" and {len(names) - 4} more" if len(names) > 4 else "")
-        table.add_row(escape(told), *row)
+        table.add_row(escape(listed(names, 4)), *row)
     out.print(table)
     gained = f" ({plan.gain:+.2%})" if plan.steering else ""
     say(

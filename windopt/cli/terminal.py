@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from logging import INFO, Handler, Logger, LogRecord
 from math import isfinite
 
 from rich.console import Console
@@ -54,6 +55,26 @@ def left_out(unit: float) -> Told:
     return lambda objective, bound: (
         f"{objective // unit:.0f} left out, at least {bound // unit:.0f} must be"
     )
+
+
+class _Notes(Handler):
+    """Prints what is logged as notes."""
+
+    def emit(self, record: LogRecord) -> None:
+        note((record.getMessage(),))
+
+
+@contextmanager
+def overheard(logger: Logger) -> Iterator[None]:
+    """Print what a part of the library logs meanwhile."""
+    notes, level = _Notes(), logger.level
+    logger.addHandler(notes)
+    logger.setLevel(INFO)
+    try:
+        yield
+    finally:
+        logger.setLevel(level)
+        logger.removeHandler(notes)
 
 
 @contextmanager

@@ -8,7 +8,7 @@ import numpy as np
 from windopt.domain.farm import Farm
 from windopt.domain.fleet import Fleet
 from windopt.domain.routing import RoutingInstance
-from windopt.errors import InvalidInput
+from windopt.errors import InvalidInput, listed
 from windopt.heuristics.placement import nearest_stations
 
 NEAREST = "nearest"
@@ -49,7 +49,7 @@ def stations_of_turbines(
     )
     for turbine, stations in zip(farm.names, named, strict=True):
         if not stations or not set(stations) <= set(fleet.names):
-            expected = f"to be among {', '.join(fleet.names)}"
+            expected = f"to be among {listed(fleet.names)}"
             raise InvalidInput(f"station of {turbine}", expected, ", ".join(stations) or "none")
     return named
 

@@ -73,7 +73,7 @@ def plan_inspection(
         turbine. Any station may inspect any turbine unless given.
     start
         A plan to begin with, perhaps for another wind; what can no longer be flown of it is
-        repaired or dropped. Not for heuristics.
+        repaired or dropped; the logger ``windopt.start`` tells what is left. Not for heuristics.
     gap
         Relative gap at which an exact method may stop [-], below 1.
     time_limit

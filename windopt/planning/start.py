@@ -1,15 +1,19 @@
 """An earlier plan as a start: its flights, as far as this farm, fleet and wind let them fly."""
 
 from collections.abc import Iterator, Sequence
+from logging import getLogger
 
 import numpy as np
 
 from windopt.domain.fleet import Fleet
 from windopt.domain.plan import Flight, InspectionPlan, Plan, YawPlan
 from windopt.domain.routing import Route, RoutingInstance
-from windopt.errors import InvalidInput
+from windopt.errors import InvalidInput, listed
 from windopt.heuristics.splitting import split_optimally
 from windopt.result import Result
+
+LOGGER = getLogger("windopt.start")
+TOLD = "Starting from the earlier plan: %.2f s in this wind, %d of its %d flights as they were."
 
 Start = InspectionPlan | Result[InspectionPlan] | Plan
 
@@ -42,7 +46,7 @@ def routes_of(
     A turbine that its station no longer reaches, or that another flight visits already, is
     dropped from the flight; a flight that takes too long is cut; turbines that no flight visits
     are flown to alone, unless they may be left out; and of a station's flights too many those of
-    the least prize are given up.
+    the least prize are given up. What came of it is logged.
 
     Parameters
     ----------
@@ -56,23 +60,28 @@ def routes_of(
     """
     _require_known(start.flights, fleet, farm_names)
     place = {farm_names[i]: at for at, i in enumerate(reached)}
-    routes: list[Route] = []
+    kept: list[Route] = []
     visited: set[int] = set()
     for flight in start.flights:
         d = fleet.names.index(flight.station)
         stops = [place[name] for name in dict.fromkeys(flight.turbines) if name in place]
         order = [i for i in stops if i not in visited and instance.reachable[d, i]]
         visited.update(order)
-        routes += (Route(d, flight) for flight in _cut(order, d, instance))
-    if instance.prize is None:
-        return (*routes, *_alone(instance, visited))
-    return tuple(_worthiest(routes, instance))
+        kept += (Route(d, flight) for flight in _cut(order, d, instance))
+    more = _alone(instance, visited)
+    routes = (*kept, *more) if instance.prize is None else tuple(_worthiest(kept, instance))
+    given = {(flight.station, flight.turbines) for flight in start.flights}
+    flown = [(fleet.names[d], tuple(farm_names[reached[i]] for i in order)) for d, order in routes]
+    unchanged = sum(flight in given for flight in flown)
+    LOGGER.info(TOLD, instance.total(routes), unchanged, len(start.flights))
+    return routes
 
 
 def _require_known(flights: Sequence[Flight], fleet: Fleet, farm_names: Sequence[str]) -> None:
     for flight in flights:
         if flight.station not in fleet.names:
-            raise InvalidInput("start", "to fly from the fleet's stations", repr(flight.station))
+            stations = f"the fleet's stations, {listed(fleet.names)}"
+            raise InvalidInput("start", f"to fly from {stations}", repr(flight.station))
         for name in flight.turbines:
             if name not in farm_names:
                 raise InvalidInput("start", "to visit turbines of the farm", repr(name))
