@@ -4,7 +4,7 @@ import pytest
 from rich.console import Console
 
 from windopt.cli import compiling
-from windopt.solving.exact import readiness
+from windopt.solving import readiness
 
 
 @pytest.fixture

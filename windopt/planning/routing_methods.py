@@ -29,7 +29,6 @@ HEAD_START = 0.2
 
 TOO_LARGE = "To build the program would take too much of the time; this is the plan to begin with."
 
-COMPILED = "Compiling the method took part of the time, as on its first use on a machine."
 
 ROUNDING = 1e-9
 """Seconds by which two sums of the same legs may differ."""
@@ -175,11 +174,12 @@ def route_indexed_program(
 
 
 def _exact(instance: RoutingInstance, options: SearchOptions) -> Result[Routes]:
-    """Solve by column generation, whose compiled loops take a moment to load."""
-    from windopt.solving.column_generation import column_generation
-    from windopt.solving.exact.readiness import is_compiled
+    """Solve by column generation, whose loops are compiled before the time begins."""
+    from windopt.solving.column_generation import column_generation  # numba loads slowly
+    from windopt.solving.readiness import compile_loops, is_compiled
 
-    compiled = is_compiled()
+    if not is_compiled():
+        compile_loops()
     found = column_generation(
         instance,
         time_limit=options.time_limit,
@@ -191,8 +191,6 @@ def _exact(instance: RoutingInstance, options: SearchOptions) -> Result[Routes]:
     )
     if found.status in (Status.FEASIBLE, Status.INTERRUPTED):
         found = _bounded(found, instance)
-    if found.status is Status.FEASIBLE and not compiled:
-        found = replace(found, reason=f"{found.reason} {COMPILED}")
     return replace(found, asked_gap=options.gap)
 
 

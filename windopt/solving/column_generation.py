@@ -160,7 +160,8 @@ def _result(search: Search, stopped: Status, lacking: str) -> Result[tuple[Route
     runtime = search.clock.elapsed
     bound = search.bound * search.unit
     if not search.found:
-        return Result(Status.NO_SOLUTION, None, inf, bound, runtime, SOURCE)
+        nothing = Status.NO_SOLUTION if stopped is Status.FEASIBLE else stopped
+        return Result(nothing, None, inf, bound, runtime, SOURCE)
     status = Status.OPTIMAL if search.closed else stopped
     objective = search.objective * search.unit
     reason = ""

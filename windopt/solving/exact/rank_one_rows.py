@@ -202,7 +202,8 @@ def violated_rows(members: Bools, x: Floats, least: float, clock: Clock) -> tupl
         return found, violations
     together = visits @ (x[:, None] * visits.T)
     np.fill_diagonal(together, np.inf)
-    near = np.argsort(-together, axis=1, kind="stable")[:, :CANDIDATES]
+    strongest = np.argsort(-together, axis=1, kind="stable")
+    near = np.ascontiguousarray(strongest[:, :CANDIDATES])
 
     def look(family: tuple[tuple[int, ...], int]) -> tuple[Rows, Floats]:
         weight, divisor = family
