@@ -7,6 +7,9 @@ bound + gap uses no other flight [1].
 * [1] Baldacci, Christofides & Mingozzi (2008), *Mathematical Programming* 115, 351-385.
 """
 
+from dataclasses import dataclass
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -15,13 +18,15 @@ from windopt.solving.exact.completions import Completions
 from windopt.solving.exact.fixing import Fixing
 from windopt.solving.exact.half_flights import Halves, Interest, half_flights
 from windopt.solving.exact.hashing import empty_slots
-from windopt.solving.exact.joined_halves import Sets, Terms, join_halves
-from windopt.solving.exact.labels import Labels, Memory, Prices, turned
+from windopt.solving.exact.joined_halves import Odd, Sets, Terms, join_halves, odd
+from windopt.solving.exact.labels import Ints, Labels, Memory, Prices, turned
 from windopt.solving.exact.network import Floats, Network, Side
 from windopt.solving.exact.pool import Pool, Tree
 
 HALVES_SHARE, FLIGHTS_SHARE = 0.25, 0.35
 """Shares of the memory that half flights and flights may take."""
+UNEVEN = 0.6
+"""Part of the room for flights that even ones may take, or odd ones."""
 JOINED = 4
 """Flights to allow for each half flight allowed."""
 BUCKETS = 24
@@ -51,26 +56,20 @@ def enumerate_flights(
         Whether to keep a flight over each set for each station, not the fastest only.
     """
     n, prices = len(networks[0].out), fixing.prices
-    sets, half_capacity = _empty_sets(n, prices.inside.shape[1], effort, memory)
-    slots, count = empty_slots(1 << 16), 0
+    found, half_capacity = _nothing_found(n, prices.inside.shape[1], effort, memory)
     trees = []
     for d, (network, rest) in enumerate(zip(networks, fixing.completions, strict=True)):
         network, limit = network.granted(fixing.duals.grant), float(fixing.limits(gap)[d])
         halves = _both_halves(network, prices, fixing.memory, rest, limit, half_capacity, clock)
         if halves is None:
             return None
-        forward, backward = halves
-        terms = Terms(d, network.t_max, network.half, limit, network.t_max / BUCKETS, apart)
-        order, groups = _grouped(backward, n, terms.width)
-        [(slots, count, whole)] = clock.map(
-            join_halves,
-            [forward], [backward], [order], [groups], [network.forward], [prices],
-            [terms], [sets], [slots], [count], [clock.stop],
-        )  # fmt: skip
-        if not whole:
+        width = network.t_max / BUCKETS
+        terms = Terms(d, network.t_max, network.half, limit, width, apart, odd=0)
+        if not _add_flights(found, *halves, network.forward, prices, terms, clock):
             return None
+        forward, backward = halves
         trees.append((Tree(forward.node, forward.parent), Tree(backward.node, backward.parent)))
-    return _pool(sets, count, trees)
+    return _pool(found, trees)
 
 
 def most_flights(n: int, effort: int, memory: float) -> int:
@@ -79,25 +78,60 @@ def most_flights(n: int, effort: int, memory: float) -> int:
     return min(JOINED * effort, int(FLIGHTS_SHARE * memory / (60 + 16 * words + n / 4)))
 
 
-def _empty_sets(n: int, cuts: int, effort: int, memory: float) -> tuple[Sets, int]:
-    """Make room for flights, and return the half flights of one side there may be."""
+@dataclass
+class _Found:
+    """Flights to an odd number of marked turbines, or to an even one, and their hash table."""
+
+    sets: Sets
+    slots: Ints
+    count: int = 0
+
+
+def _nothing_found(n: int, cuts: int, effort: int, memory: float) -> tuple[list[_Found], int]:
+    """Make room for even and odd flights, and return the half flights of one side there may be."""
     words = (n + 63) // 64
     halves = min(effort, int(HALVES_SHARE * memory / (2 * (48 + 8 * (words + cuts)))))
-    rows = 1 + most_flights(n, effort, memory)
-    station, ahead, behind = (np.empty(rows, np.int32) for _ in range(3))
-    return Sets(np.empty(rows), station, ahead, behind, np.empty((rows, words), np.uint64)), halves
+    rows = 1 + int(UNEVEN * most_flights(n, effort, memory))
+
+    def room() -> _Found:
+        station, ahead, behind = (np.empty(rows, np.int32) for _ in range(3))
+        sets = Sets(np.empty(rows), station, ahead, behind, np.empty((rows, words), np.uint64))
+        return _Found(sets, empty_slots(1 << 16))
+
+    return [room(), room()], halves
 
 
-def _pool(sets: Sets, count: int, trees: list[tuple[Tree, Tree]]) -> Pool:
+def _add_flights(
+    found: list[_Found],
+    forward: Halves,
+    backward: Halves,
+    side: Side,
+    prices: Prices,
+    terms: Terms,
+    clock: Clock,
+) -> bool:
+    """Add the flights of one station, even and odd ones side by side; tell whether all fitted."""
+    odd_ahead, odd_behind = odd(forward), odd(backward)
+    order, groups = _grouped(backward, odd_behind, len(side.first), terms.width)
+
+    def add(parity: int, each: _Found) -> bool:
+        each.slots, each.count, whole = join_halves(
+            forward, backward, odd_ahead, odd_behind, order, groups, side, prices,
+            terms._replace(odd=parity), each.sets, each.slots, each.count, clock.stop,
+        )  # fmt: skip
+        return whole
+
+    return all(clock.map(add, (0, 1), found))
+
+
+def _pool(found: list[_Found], trees: list[tuple[Tree, Tree]]) -> Pool:
     """Return copies of the flights in use."""
-    return Pool(
-        sets.cost[:count].copy(),
-        sets.station[:count].copy(),
-        sets.ahead[:count].copy(),
-        sets.behind[:count].copy(),
-        sets.set[:count].copy(),
-        trees,
-    )
+
+    def joined(field: str) -> NDArray[Any]:
+        return np.concatenate([getattr(each.sets, field)[: each.count] for each in found])
+
+    cost, station, ahead, behind, sets = map(joined, Sets._fields)
+    return Pool(cost, station, ahead, behind, sets, trees)
 
 
 def _both_halves(
@@ -123,8 +157,16 @@ def _both_halves(
     return (forward, backward) if whole and whole_too else None
 
 
-def _grouped(found: Halves, n: int, width: float) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Sort halves by turbine, time bucket and cost; return the order and where groups begin."""
-    group = found.node.astype(np.int64) * BUCKETS + (found.T / width).astype(np.int64)
+def _grouped(
+    found: Halves, odd: Odd, n: int, width: float
+) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Sort halves, even ones first, by turbine, time bucket and cost.
+
+    Returns
+    -------
+    The order, and where each group of one parity, turbine and bucket begins.
+    """
+    group = (odd * n + found.node) * BUCKETS + (found.T / width).astype(np.int64)
     order = np.lexsort((found.C, group))
-    return order, np.searchsorted(group[order], np.arange(n * BUCKETS + 1)).astype(np.int64)
+    begin = np.searchsorted(group[order], np.arange(2 * n * BUCKETS + 1))
+    return order, begin.astype(np.int64)

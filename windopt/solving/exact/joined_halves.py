@@ -1,7 +1,9 @@
 """Joined halves: flights made of half flights and hashed on their sets.
 
 A flight is made at the leg during which half of t_max goes by, or of one half alone, as labels are
-in :mod:`windopt.solving.exact.joins`; of those over one set of turbines the fastest is kept.
+in :mod:`windopt.solving.exact.joins`; of those over one set of turbines the fastest is kept. Every
+other turbine is marked: flights to an odd number of these are made beside those to an even one, of
+halves that are odd and even themselves, so that no set is met twice and no pair tried twice.
 """
 
 from typing import NamedTuple
@@ -15,6 +17,12 @@ from windopt.solving.exact.half_flights import Halves
 from windopt.solving.exact.hashing import empty_slots, row_hash, same_rows
 from windopt.solving.exact.labels import Ints, Prices, Words, price_of
 from windopt.solving.exact.network import SLACK, Floats, Side
+
+Odd = NDArray[np.int64]
+"""1 for each half that visits an odd number of marked turbines, 0 for the others."""
+
+MARKED = np.uint64(0x5555555555555555)
+"""The marked turbines of each word."""
 
 
 class Sets(NamedTuple):
@@ -33,6 +41,12 @@ class Sets(NamedTuple):
     ahead: Ints
     behind: Ints
     set: Words
+
+
+def odd(halves: Halves) -> Odd:
+    """Tell which halves visit an odd number of marked turbines."""
+    found: Odd = np.bitwise_count(halves.set & MARKED).sum(axis=1, dtype=np.int64) & 1
+    return found
 
 
 @compiled
@@ -105,6 +119,8 @@ class Terms(NamedTuple):
         Of a time bucket of halves.
     apart
         Whether to keep a flight over each set for each station.
+    odd
+        1 for the flights to an odd number of marked turbines, 0 for the others.
     """
 
     d: int
@@ -113,14 +129,17 @@ class Terms(NamedTuple):
     limit: float
     width: float
     apart: bool
+    odd: int
 
 
 @inlined
 def _add_behind(
-    backward: Halves, side: Side, terms: Terms, sets: Sets, slots: Ints, count: int
+    backward: Halves, odd: Odd, side: Side, terms: Terms, sets: Sets, slots: Ints, count: int
 ) -> tuple[Ints, int, bool]:
     """Add the backward halves that are flights by themselves: half goes by on their first leg."""
     for b in range(len(backward.T)):
+        if odd[b] != terms.odd:
+            continue
         j = backward.node[b]
         whole = side.first[j] + backward.T[b]
         in_time = side.first[j] > terms.half and whole <= terms.t_max + SLACK
@@ -147,11 +166,13 @@ def _add_ahead(
 
 @inlined
 def _add_joined(
-    forward: Halves, f: int, backward: Halves, order: NDArray[np.int64], groups: NDArray[np.int64],
-    side: Side, prices: Prices, terms: Terms, sets: Sets, slots: Ints, count: int,
+    forward: Halves, f: int, odd: int, backward: Halves, order: NDArray[np.int64],
+    groups: NDArray[np.int64], side: Side, prices: Prices, terms: Terms, sets: Sets, slots: Ints,
+    count: int,
 ) -> tuple[Ints, int, bool]:  # fmt: skip
-    """Add a forward half with each backward one that goes with it."""
-    buckets = (len(groups) - 1) // len(side.first)
+    """Add a forward half, odd or not, with each backward one that goes with it."""
+    n = len(side.first)
+    buckets = (len(groups) - 1) // (2 * n)
     i = forward.node[f]
     for e in range(side.degree[i]):
         j = side.heads[i, e]
@@ -160,7 +181,7 @@ def _add_joined(
         visited = forward.set[f, j >> 6] & bit(j) != NONE
         if t <= terms.half or left < 0.0 or visited:
             continue
-        first = j * buckets
+        first = ((odd ^ terms.odd) * n + j) * buckets
         for group in range(first, first + min(buckets, int(left / terms.width) + 1)):
             for b in order[groups[group] : groups[group + 1]]:
                 cost = c + backward.C[b]
@@ -187,6 +208,8 @@ def _add_joined(
 def join_halves(
     forward: Halves,
     backward: Halves,
+    odd_ahead: Odd,
+    odd_behind: Odd,
     order: NDArray[np.int64],
     groups: NDArray[np.int64],
     side: Side,
@@ -201,9 +224,12 @@ def join_halves(
 
     Parameters
     ----------
+    odd_ahead, odd_behind
+        Whether each half, forward and backward, visits an odd number of marked turbines.
     order, groups
-        Backward halves, cheapest first within each turbine and time bucket: bucket b of turbine
-        j is ``order[groups[j * buckets + b] : groups[j * buckets + b + 1]]``.
+        Backward halves, cheapest first within each group: those of bucket b of turbine j are
+        ``order[groups[j * buckets + b] : groups[j * buckets + b + 1]]`` where they are even, and
+        ``n * buckets`` groups further on where they are odd.
     slots
         Hash table of the flights in ``sets``, a power of two long: rows, or -1.
 
@@ -211,13 +237,15 @@ def join_halves(
     -------
     The hash table, the number of flights in ``sets``, and whether all fitted.
     """
-    slots, count, fitted = _add_behind(backward, side, terms, sets, slots, count)
+    slots, count, fitted = _add_behind(backward, odd_behind, side, terms, sets, slots, count)
     for f in range(len(forward.T)):
         if not fitted or stop[0] != 0:
             return slots, count, False
-        slots, count, fitted = _add_ahead(forward, f, side, terms, sets, slots, count)
+        if odd_ahead[f] == terms.odd:
+            slots, count, fitted = _add_ahead(forward, f, side, terms, sets, slots, count)
         if fitted:
             slots, count, fitted = _add_joined(
-                forward, f, backward, order, groups, side, prices, terms, sets, slots, count
-            )
+                forward, f, odd_ahead[f], backward, order, groups, side, prices, terms, sets, slots,
+                count,
+            )  # fmt: skip
     return slots, count, fitted
