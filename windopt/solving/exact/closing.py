@@ -25,7 +25,7 @@ from windopt.solving.exact.tightening import tighten
 FIRST_PART, LARGER, SMALLER = 0.1, 1.5, 0.5
 """Part of the gap to begin with where the whole is too much, by what it grows, and by what it
 shrinks where even the first is too much."""
-FILLED = 0.7
+FILLED = 0.75
 """Part of the room for flights that the longest list is expected to take."""
 WORTHWHILE = 1.08
 """A further list is made only where one is expected to fit that goes this many times as far as is
