@@ -77,7 +77,8 @@ def plan_inspection(
     gap
         Relative gap at which an exact method may stop [-], below 1.
     time_limit
-        Wall-clock limit [s].
+        Wall-clock limit [s]; it begins once the method ``exact`` is compiled, as it is before its
+        first use on a machine.
     memory
         What the lists of the method ``exact`` may take [bytes].
     seed
