@@ -27,7 +27,7 @@ HALVES_SHARE, FLIGHTS_SHARE = 0.25, 0.35
 """Shares of the memory that half flights and flights may take."""
 UNEVEN = 0.6
 """Part of the room for flights that even ones may take, or odd ones."""
-JOINED = 12
+JOINED = 6
 """Flights to allow for each half flight allowed."""
 BUCKETS = 24
 """Time buckets of half flights in a t_max; few, since each is sorted by cost."""
