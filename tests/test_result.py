@@ -11,7 +11,7 @@ PROVED = Result(Status.OPTIMAL, tuple(range(1000)), objective=1000.0, bound=995.
 
 def test_a_gap_is_mentioned_where_one_was_asked_for():
     assert PROVED.sentence == "Proved best."
-    assert "0.50%" in replace(PROVED, asked_gap=0.005).sentence
+    assert "0.5%" in replace(PROVED, asked_gap=0.005).sentence
     assert (
         replace(PROVED, status=Status.FEASIBLE, asked_gap=0.005).sentence
         == Status.FEASIBLE.sentence

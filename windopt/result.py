@@ -115,7 +115,7 @@ class Result(Generic[Solution]):
     def sentence(self) -> str:
         """The status as a sentence, with the gap where one was asked for."""
         if self.status is Status.OPTIMAL and self.asked_gap:
-            return f"Proved best to within the gap of {self.asked_gap:.2%} that was asked for."
+            return f"Proved best to within the gap of {100 * self.asked_gap:.3g}% asked for."
         return self.status.sentence
 
     def __repr__(self) -> str:

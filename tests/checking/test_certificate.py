@@ -44,6 +44,7 @@ def test_the_certificate_of_an_optimum_passes(seed):
     result = random_result(seed)
     assert result.status is Status.OPTIMAL
     certificate = certify(result)
+    assert certificate.reason == ""
     report = windopt.check(result, certificate)
     assert report.passed, report
     assert certificate.proof.bound == pytest.approx(result.bound, rel=1e-7)

@@ -14,7 +14,7 @@ from windopt.domain.plan import LeftOut, Unreachable
 from windopt.domain.turbine import Turbine
 from windopt.domain.wind import Wind
 from windopt.planning.inspection import plan_inspection
-from windopt.planning.worth import unit_of_priority
+from windopt.planning.worth import unit_of_priority, worth_of_priorities
 from windopt.planning.yaw import plan_yaw
 from windopt.result import Status
 
@@ -61,20 +61,33 @@ def test_it_is_told_how_many_are_inspected_and_can_be(told):
     plan, unit = result.found(), unit_of_priority(FEW, len(LONG))
     missed = len(plan.left_out)
     reached = 6 - len(plan.unreachable)
-    inspects = f"{reached - missed} of {reached} within reach are inspected"
+    inspects = f"{reached - missed} of {reached} turbines within reach are inspected"
     sentences = told(result)
     assert f"{inspects}; no plan inspects more." in sentences
-    assert sentences[-1].startswith(f"Proved best. Bound {plan.duration:.2f} s")
+    proved = f"Proved best. No plan that inspects as much takes less than {plan.duration:.2f} s"
+    assert sentences[-1].startswith(proved)
     worse = replace(result, status=Status.FEASIBLE, bound=(missed - 0.5) * unit)
     sentences = told(worse)
-    assert f"{inspects}; more than {reached - missed + 1} cannot be." in sentences
-    assert "Bound" not in sentences[-1]
+    assert f"{inspects}; no plan inspects more than {reached - missed + 1}." in sentences
+    assert "less than" not in sentences[-1]
 
 
 def test_where_all_are_inspected_nothing_is_said_of_worth(told):
     sentences = told(inspected(Fleet((replace(SOUTH, max_flights=9),))))
     assert any(sentence.startswith("All ") for sentence in sentences)
     assert not any("worth" in sentence or "left out" in sentence for sentence in sentences)
+
+
+def test_priorities_are_told_apart_from_numbers(told):
+    priorities = worth_of_priorities(LONG, FEW, {"T1": 5})
+    result = inspected(worth=priorities)
+    (sentence,) = (each for each in told(result) if "within reach" in each)
+    assert "a sum of priorities of " in sentence
+    assert sentence.endswith("; no plan reaches more.")
+    enough = Fleet((replace(SOUTH, max_flights=9),))
+    free = inspected(enough, worth=worth_of_priorities(LONG, enough, {"T1": 5}))
+    turbines = 6 - len(free.found().unreachable)
+    assert f"All {turbines} turbines within reach are inspected." in told(free)
 
 
 def test_worth_in_seconds_is_told(told):
@@ -104,4 +117,4 @@ def test_an_open_gap_is_never_none(gap, words):
 
 def test_progress_is_told_in_seconds_or_turbines():
     assert seconds(120.0, 100.0) == "plan 120.0 s, bound 100.0 s"
-    assert left_out(1000.0)(3200.0, 2050.0) == "3 left out, at least 2 must be"
+    assert left_out("turbines", 1000.0)(3200.0, 2050.0) == "turbines left out: 3, at least 2"

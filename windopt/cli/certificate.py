@@ -23,8 +23,9 @@ def write_proof(
     result: Result[InspectionPlan],
     path: Path,
     folder: Path | None,
-    time_limit: float,
     *,
+    time_limit: float,
+    memory: float,
     force: bool,
 ) -> None:
     """Prove the bound of a plan and write the certificate to ``path`` and into ``folder``."""
@@ -32,7 +33,7 @@ def write_proof(
         note(("There is no plan, and so no certificate.",))
         return
     with progress("Proving the bound once more, for the certificate"):
-        certificate = certify(result, time_limit=time_limit)
+        certificate = certify(result, time_limit=time_limit, memory=memory)
     proved = certificate.proof.bound
     if proved < result.bound * (1 - LACKING):
         lacking = f"The certificate proves {proved:.2f} s of the bound of {result.bound:.2f} s"

@@ -8,7 +8,7 @@ from windopt.domain.fleet import Fleet, Uav
 from windopt.errors import InvalidInput
 from windopt.io.built_in import built_in_farm, built_in_stations
 from windopt.io.stations import read_stations
-from windopt.planning.station_design import MARGIN
+from windopt.planning.station_design import station_design
 from windopt.planning.stations import stations_by_cover, stations_by_k_means
 
 
@@ -39,7 +39,7 @@ def _number(text: str) -> int | None:
 def _by_default(farm: Farm, uav: Uav, *, dwell: float, seed: int) -> Fleet:
     if farm == built_in_farm():
         return built_in_stations(uav)
-    _require_short(dwell, uav)
+    _require_short(farm, uav, dwell)
     placed = stations_by_cover(farm, uav=uav, dwell=dwell, seed=seed)
     if placed.solution is None:
         raise InvalidInput("--stations", "to be given, as the search for them ended early", "none")
@@ -49,11 +49,13 @@ def _by_default(farm: Farm, uav: Uav, *, dwell: float, seed: int) -> Fleet:
     return placed.solution
 
 
-def _require_short(dwell: float, uav: Uav) -> None:
+def _require_short(farm: Farm, uav: Uav, dwell: float) -> None:
     """Refuse a dwell that leaves no flight the reserve for which stations are placed."""
-    longest = (1 - MARGIN) * uav.t_max
+    design = station_design(farm, uav=uav, dwell=dwell)
+    longest = design.longest
     if dwell > longest:
-        why = f"as stations are placed so that {100 * MARGIN:g} % of --t-max is left on landing"
+        kept = f"{100 * design.margin:g} % of --t-max"
+        why = f"as stations are placed so that {kept} is left on landing"
         own = ", or --stations of your own" if dwell < uav.t_max else ""
         raise InvalidInput("--dwell", f"<= {longest:g} s, {why}{own}", f"{dwell:g}")
 

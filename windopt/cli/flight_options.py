@@ -139,9 +139,11 @@ class FlightOptions:
         return based, {"worth": worth, **asked}
 
     def told(self, farm: Farm, based: Fleet) -> Told:
-        """Return what says how far a search is: in turbines, where their number comes first."""
-        first = self.priorities is not None or (based.limited and not self.worth)
-        return left_out(unit_of_priority(based, len(farm))) if first else seconds
+        """Return what says how far a search is: not in seconds where turbines come first."""
+        if self.worth or not (self.priorities or based.limited):
+            return seconds
+        what = "priority" if self.priorities else "turbines"
+        return left_out(what, unit_of_priority(based, len(farm)))
 
     def _fleet(self, farm: Farm, uav: Uav) -> Fleet:
         """Return the stations, each with its number of flights."""

@@ -48,5 +48,6 @@ def inspect(
     if out is not None:
         write_folder(result, out, force=force)
     if certificate is not None:
-        write_proof(result, certificate, out, flights.time_limit, force=force)
+        limits = {"time_limit": asked["time_limit"], "memory": asked["memory"]}
+        write_proof(result, certificate, out, **limits, force=force)
     raise typer.Exit(exit_code(result))

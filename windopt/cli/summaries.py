@@ -69,7 +69,7 @@ def _tell(what: str, turbines: Iterable[Unreachable | LeftOut]) -> None:
     for reason, names in told[:FEW]:
         say(f"{what}: {', '.join(names)}. {reason}")
     if others := [name for _, names in told[FEW:] for name in names]:
-        say(f"{what}: {', '.join(others)}, each for a reason alike; --json tells it.")
+        say(f"{what}: {', '.join(others)}, for other reasons, which --json tells.")
 
 
 def _flights(plan: InspectionPlan) -> Table:
@@ -84,25 +84,27 @@ def _flights(plan: InspectionPlan) -> Table:
 def _covered(covered: Coverage) -> str:
     """Say how much is inspected, and how much can be."""
     if covered.inspected == covered.of:
-        return f"All {covered.of} within reach are inspected."
-    weighed = " by priority" if covered.weighted else ""
-    inspected = f"{covered.inspected} of {covered.of} within reach are inspected{weighed}"
-    if covered.most == covered.inspected:
-        return f"{inspected}; no plan inspects more."
-    return f"{inspected}; more than {covered.most} cannot be."
+        return f"All {covered.of} turbines within reach are inspected."
+    inspected = f"{covered.inspected} of {covered.of} turbines within reach are inspected"
+    beaten = "" if covered.most == covered.priority else f" than {covered.most}"
+    if not covered.weighted:
+        return f"{inspected}; no plan inspects more{beaten}."
+    reached = f"a sum of priorities of {covered.priority} of {covered.total}"
+    return f"{inspected}, {reached}; no plan reaches more{beaten}."
 
 
 def _proof(result: Result[InspectionPlan], covered: Coverage | None) -> str:
-    """Say what bounds the time of all flights, where it is known how many turbines they inspect."""
+    """Say what is proved of the time of all flights, where it is settled what they inspect."""
     if not isfinite(result.bound):
         return "There is no bound."
-    if covered is not None and covered.most > covered.inspected:
+    if covered is not None and covered.most > covered.priority:
         return f"{result.runtime:.1f} s."
     settled = 0.0 if covered is None else covered.forgone
     objective, bound = result.objective - settled, result.bound - settled
     gap = (objective - bound) / objective if objective else 0.0
     source = f" ({result.bound_source})" if result.bound_source else ""
-    return f"Bound {bound:.2f} s{source}, gap {percent(gap)}, {result.runtime:.1f} s."
+    told = "Bound" if covered is None else "No plan that inspects as much takes less than"
+    return f"{told} {bound:.2f} s{source}, gap {percent(gap)}, {result.runtime:.1f} s."
 
 
 def show_yaw(result: Result[YawPlan]) -> None:

@@ -50,10 +50,10 @@ def seconds(objective: float, bound: float) -> str:
     return f"plan {objective:.1f} s, bound {bound:.1f} s"
 
 
-def left_out(unit: float) -> Told:
-    """Return what says how many turbines are left out, and must be, each worth ``unit`` [s]."""
+def left_out(what: str, unit: float) -> Told:
+    """Return what says how much is left out, and must be; one of it is worth ``unit`` [s]."""
     return lambda objective, bound: (
-        f"{objective // unit:.0f} left out, at least {bound // unit:.0f} must be"
+        f"{what} left out: {objective // unit:.0f}, at least {bound // unit:.0f}"
     )
 
 

@@ -39,10 +39,12 @@ def certify(
         If no bound is claimed.
     """
     from windopt.solving.certification import certify as prove  # compiled loops load slowly
+    from windopt.solving.readiness import make_ready
 
     plan = result.found()
     if not isfinite(result.bound):
         raise InvalidInput("bound", "to be proved, for a certificate", result.bound)
+    make_ready()
     beyond = {unreachable.turbine for unreachable in plan.unreachable}
     reached = [i for i, name in enumerate(plan.farm.names) if name not in beyond]
     turbines = tuple(plan.farm.names[i] for i in reached)

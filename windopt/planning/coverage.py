@@ -10,25 +10,31 @@ from windopt.result import Result
 
 @dataclass(frozen=True)
 class Coverage:
-    """How much of what is within reach a plan inspects; a turbine counts as often as its priority.
+    """How much of what is within reach a plan inspects.
 
     Parameters
     ----------
     inspected, of
-        By the plan, and in all.
+        Turbines, by the plan and in all.
+    priority, total
+        Sums of their priorities.
     most
-        What no plan exceeds.
-    weighted
-        Whether turbines differ in priority.
+        Sum of priorities that no plan exceeds.
     forgone
         What is left out, as the objective counts it [s].
     """
 
     inspected: int
     of: int
+    priority: int
+    total: int
     most: int
-    weighted: bool
     forgone: float
+
+    @property
+    def weighted(self) -> bool:
+        """Whether a turbine has a priority above 1."""
+        return self.total > self.of
 
 
 def coverage(result: Result[InspectionPlan]) -> Coverage | None:
@@ -46,7 +52,12 @@ def coverage(result: Result[InspectionPlan]) -> Coverage | None:
     worths = zip(plan.farm.names, plan.worth, strict=True)
     beyond = {unreachable.turbine for unreachable in plan.unreachable}
     priority = {name: round(worth / unit) for name, worth in worths if name not in beyond}
-    of = sum(priority.values())
-    inspected = of - sum(priority[left.turbine] for left in plan.left_out)
-    most = of - (floor(result.bound / unit) if isfinite(result.bound) else 0)
-    return Coverage(inspected, of, most, len(set(priority.values())) > 1, plan.forgone)
+    total = sum(priority.values())
+    return Coverage(
+        inspected=len(priority) - len(plan.left_out),
+        of=len(priority),
+        priority=total - sum(priority[left.turbine] for left in plan.left_out),
+        total=total,
+        most=total - (floor(result.bound / unit) if isfinite(result.bound) else 0),
+        forgone=plan.forgone,
+    )

@@ -20,7 +20,7 @@ from windopt.planning.reach import (
     routing_instance,
     unreachable_turbines,
 )
-from windopt.planning.routing_methods import OwnMethod, chosen_method
+from windopt.planning.routing_methods import OwnMethod, chosen_method, make_ready
 from windopt.planning.search_options import MEMORY, SearchOptions
 from windopt.planning.start import Start, inspection_of, routes_of
 from windopt.planning.worth import turbines_left_out, weighed, worth_per_turbine
@@ -104,8 +104,7 @@ def plan_inspection(
     require_kind("farm", farm, Farm)
     require_kind("fleet", fleet, Fleet)
     require_kind("wind", wind, Wind)
-    began, recorder = perf_counter(), Recorder(progress)
-    options = SearchOptions(gap, time_limit, seed, memory, progress=recorder)
+    options = SearchOptions(gap, time_limit, seed, memory)
     require_one_of("rule", rule, SpeedRule)
     rule = SpeedRule(rule)
     dwells = dwell_per_turbine(farm, dwell)
@@ -116,6 +115,10 @@ def plan_inspection(
     everything = weighed(assigned_to(everything, fleet, assigned), fleet, worths)
     unreachable = unreachable_turbines(farm, fleet, wind, everything)
     reached = np.flatnonzero(everything.reachable.any(axis=0)).tolist()
+    if reached:
+        make_ready(method)
+    began, recorder = perf_counter(), Recorder(progress)
+    options = replace(options, progress=recorder)
     if reached:
         instance = everything.subset(reached)
         if start is not None:

@@ -19,7 +19,7 @@ from windopt.forecasting.persistence import Persistence
 from windopt.planning.assignment import Assignment
 from windopt.planning.inspection import DEFAULT_METHOD, plan_inspection
 from windopt.planning.reach import dwell_per_turbine
-from windopt.planning.routing_methods import chosen_method
+from windopt.planning.routing_methods import chosen_method, make_ready
 from windopt.planning.schedule import METHOD as DEFAULT_YAW_METHOD
 from windopt.planning.schedule import plan_schedule, stopped
 from windopt.planning.search_options import MEMORY, SearchOptions
@@ -85,8 +85,8 @@ def plan(
     dwell, rule, worth, assignment, start, gap, memory, progress
         As in :func:`windopt.plan_inspection`, for the flights.
     time_limit
-        Wall-clock limit of the whole plan [s]. Ctrl-C ends it early: what is left to do is then
-        done in the quickest way.
+        Wall-clock limit of the whole plan [s], which begins once the method ``exact`` is compiled.
+        Ctrl-C ends it early: what is left to do is then done in the quickest way.
     seed
         Of whatever is drawn at random.
 
@@ -108,13 +108,14 @@ def plan(
     require_kind("farm", farm, Farm)
     require_kind("fleet", fleet, Fleet)
     require_kind("series", series, WindSeries)
-    begin = perf_counter()
-    # What flights cannot be planned with is refused before set-points take half of the time.
+    # Most of what cannot be flown is refused here, before set-points take half of the time.
     SearchOptions(gap, time_limit, seed, memory)
     require_one_of("rule", rule, SpeedRule)
     dwells, worths = dwell_per_turbine(farm, dwell), worth_per_turbine(farm, fleet, worth)
     chosen_method(method, weighs=worths is not None, improves=start is not None)
     start = None if start is None else inspection_of(start)
+    make_ready(method)
+    begin = perf_counter()
     pace = pace or Pace()
     known = series if time is None else series.until(time)
     forecast = _fitted(forecaster, known).predict(known)

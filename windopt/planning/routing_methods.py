@@ -174,12 +174,9 @@ def route_indexed_program(
 
 
 def _exact(instance: RoutingInstance, options: SearchOptions) -> Result[Routes]:
-    """Solve by column generation, whose loops are compiled before the time begins."""
+    """Solve by column generation."""
     from windopt.solving.column_generation import column_generation  # numba loads slowly
-    from windopt.solving.readiness import compile_loops, is_compiled
 
-    if not is_compiled():
-        compile_loops()
     found = column_generation(
         instance,
         time_limit=options.time_limit,
@@ -241,3 +238,11 @@ def chosen_method(
     if improves and name not in IMPROVES:
         raise InvalidInput("method", f"to be one of {', '.join(IMPROVES)} with a start", name)
     return METHODS[method] if isinstance(method, str) else by_keywords(method)
+
+
+def make_ready(method: str | OwnMethod) -> None:
+    """Compile what a method needs where that was not done yet, before its time begins."""
+    if method == "exact":
+        from windopt.solving.readiness import make_ready as compile_exact  # numba loads slowly
+
+        compile_exact()

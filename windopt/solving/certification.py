@@ -30,6 +30,7 @@ SHARES = (1.0, 0.5, 0.25, 0.1)
 PATIENCE = 0.6
 """Part of the time left that each part of the gap may take, so that a smaller one has some too."""
 SHORT, STOPPED = "Time or memory did not suffice.", "The user stopped it."
+LONG = "The flights that matter are too many to be listed."
 
 
 class Certified(NamedTuple):
@@ -67,15 +68,15 @@ def certify(
     with Clock(time_limit) as clock:
         search = Search(instance, clock)
         search.offer([(route.station, route.turbines) for route in routes])
-        proof, reason = _of_arrivals(search, bound), SHORT
+        proof, reason = _of_arrivals(search, bound), LONG
         try:
-            for better in _ever_better(search, bound, memory):
-                proof = better
+            for other in _proofs(search, bound, memory):
+                proof = max(proof, other, key=lambda each: each.bound)
         except KeyboardInterrupt:
             reason = STOPPED
         except (OutOfTime, LabelsOverflow):
-            pass
-    return Certified(proof, reason if proof.bound < bound else "")
+            reason = SHORT
+    return Certified(proof, reason if proof.bound < bound * (1 - CLOSED) else "")
 
 
 def _of_arrivals(search: Search, bound: float) -> Proof:
@@ -85,8 +86,8 @@ def _of_arrivals(search: Search, bound: float) -> Proof:
     return Proof(min(bound, float(prices.sum())), prices, tolls, ((),) * search.n)
 
 
-def _ever_better(search: Search, bound: float, memory: float) -> Iterator[Proof]:
-    """Yield proofs, each of a higher bound: over all flights, then over those that matter.
+def _proofs(search: Search, bound: float, memory: float) -> Iterator[Proof]:
+    """Yield proofs, of ever higher bounds as a rule: over all flights, then over those that matter.
 
     Raises
     ------
@@ -116,26 +117,37 @@ def _over_all_flights(relaxation: Relaxation, bound: float) -> Proof:
 
 
 def _over_a_list(proof: Proof, relaxation: Relaxation, bound: float) -> Iterator[Proof]:
-    """Yield what the flights within the gap, or a part of it, prove beyond ``proof``."""
-    search, gap, clock = relaxation.search, bound - proof.bound, relaxation.search.clock
+    """Yield what the flights within the gap, or a part of it, prove beyond ``proof``.
+
+    Raises
+    ------
+    LabelsOverflow
+        If memory does not suffice to tell which legs they fly.
+    OutOfTime
+        If time was too short for a part of the gap.
+    """
+    search, gap, in_time = relaxation.search, bound - proof.bound, True
     if gap <= CLOSED * bound:
         yield replace(proof, bound=bound)
         return
     fixing = relaxation.fix_arcs(ceiling=(bound + 2 * MARGIN * bound) / search.unit)
     if fixing is None:
-        return
+        raise LabelsOverflow
     for share in SHARES:
-        target = (proof.bound + share * gap) / search.unit
+        aim = proof.bound + share * gap
+        target, case = aim / search.unit, None
         within = target * (1 + MARGIN) - proof.bound / search.unit
         try:
-            with Clock(PATIENCE * clock.left) as search.clock:
+            with search.within(PATIENCE * search.clock.left):
                 pool = _listed(relaxation, fixing, within)
                 case = None if pool is None else prove(_all_left(pool, relaxation), target, search)
         except OutOfTime:
-            continue
+            in_time = False
         if case is not None:
-            yield replace(proof, bound=target * search.unit, case=case)
-            return
+            yield replace(proof, bound=aim, case=case)
+            break
+    if not in_time:
+        raise OutOfTime
 
 
 def _listed(relaxation: Relaxation, fixing: Fixing, gap: float) -> Pool | None:

@@ -219,6 +219,7 @@ def test_all_flights_within_the_gap_are_listed_and_no_others(setting):
             wanted[key] = min(wanted.get(key, inf), flight[2])
     listed = {frozenset(pool.path(r)): pool.cost[r] for r in range(len(pool))}
     assert wanted.keys() <= listed.keys()
+    assert len(listed) == len(pool)
     for key, time in wanted.items():
         assert listed[key] == pytest.approx(time)
     for r in range(len(pool)):

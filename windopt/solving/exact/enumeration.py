@@ -18,7 +18,7 @@ from windopt.solving.exact.completions import Completions
 from windopt.solving.exact.fixing import Fixing
 from windopt.solving.exact.half_flights import Halves, Interest, half_flights
 from windopt.solving.exact.hashing import empty_slots
-from windopt.solving.exact.joined_halves import Odd, Sets, Terms, join_halves, odd
+from windopt.solving.exact.joined_halves import Parities, Sets, Terms, join_halves, parities
 from windopt.solving.exact.labels import Ints, Labels, Memory, Prices, turned
 from windopt.solving.exact.network import Floats, Network, Side
 from windopt.solving.exact.pool import Pool, Tree
@@ -26,7 +26,7 @@ from windopt.solving.exact.pool import Pool, Tree
 HALVES_SHARE, FLIGHTS_SHARE = 0.25, 0.35
 """Shares of the memory that half flights and flights may take."""
 UNEVEN = 0.6
-"""Part of the room for flights that even ones may take, or odd ones."""
+"""Part of the flights that may be of one parity."""
 JOINED = 6
 """Flights to allow for each half flight allowed."""
 BUCKETS = 24
@@ -64,7 +64,7 @@ def enumerate_flights(
         if halves is None:
             return None
         width = network.t_max / BUCKETS
-        terms = Terms(d, network.t_max, network.half, limit, width, apart, odd=0)
+        terms = Terms(d, network.t_max, network.half, limit, width, apart)
         if not _add_flights(found, *halves, network.forward, prices, terms, clock):
             return None
         forward, backward = halves
@@ -73,14 +73,15 @@ def enumerate_flights(
 
 
 def most_flights(n: int, effort: int, memory: float) -> int:
-    """Return how many flights may be listed, over n turbines."""
+    """Return how many flights may be listed, over n turbines, if they are even enough."""
     words = (n + 63) // 64
-    return min(JOINED * effort, int(FLIGHTS_SHARE * memory / (60 + 16 * words + n / 4)))
+    most = FLIGHTS_SHARE * memory / (60 + 16 * words + n / 4) / (2 * UNEVEN)
+    return min(JOINED * effort, int(most))
 
 
 @dataclass
 class _Found:
-    """Flights to an odd number of marked turbines, or to an even one, and their hash table."""
+    """Flights of one parity, and their hash table."""
 
     sets: Sets
     slots: Ints
@@ -88,7 +89,7 @@ class _Found:
 
 
 def _nothing_found(n: int, cuts: int, effort: int, memory: float) -> tuple[list[_Found], int]:
-    """Make room for even and odd flights, and return the half flights of one side there may be."""
+    """Make room for flights of each parity, and return how many half flights a side may have."""
     words = (n + 63) // 64
     halves = min(effort, int(HALVES_SHARE * memory / (2 * (48 + 8 * (words + cuts)))))
     rows = 1 + int(UNEVEN * most_flights(n, effort, memory))
@@ -110,14 +111,14 @@ def _add_flights(
     terms: Terms,
     clock: Clock,
 ) -> bool:
-    """Add the flights of one station, even and odd ones side by side; tell whether all fitted."""
-    odd_ahead, odd_behind = odd(forward), odd(backward)
-    order, groups = _grouped(backward, odd_behind, len(side.first), terms.width)
+    """Add the flights of one station, both parities side by side; tell whether all fitted."""
+    ahead, behind = parities(forward), parities(backward)
+    order, groups = _grouped(backward, behind, len(side.first), terms.width)
 
     def add(parity: int, each: _Found) -> bool:
         each.slots, each.count, whole = join_halves(
-            forward, backward, odd_ahead, odd_behind, order, groups, side, prices,
-            terms._replace(odd=parity), each.sets, each.slots, each.count, clock.stop,
+            forward, backward, ahead, behind, parity, order, groups, side, prices, terms,
+            each.sets, each.slots, each.count, clock.stop,
         )  # fmt: skip
         return whole
 
@@ -158,7 +159,7 @@ def _both_halves(
 
 
 def _grouped(
-    found: Halves, odd: Odd, n: int, width: float
+    found: Halves, parity: Parities, n: int, width: float
 ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Sort halves, even ones first, by turbine, time bucket and cost.
 
@@ -166,7 +167,8 @@ def _grouped(
     -------
     The order, and where each group of one parity, turbine and bucket begins.
     """
-    group = (odd * n + found.node) * BUCKETS + (found.T / width).astype(np.int64)
+    bucket = (found.T / width).astype(np.int64)
+    group = (parity.astype(np.int64) * n + found.node) * BUCKETS + bucket
     order = np.lexsort((found.C, group))
     begin = np.searchsorted(group[order], np.arange(2 * n * BUCKETS + 1))
     return order, begin.astype(np.int64)

@@ -1,9 +1,11 @@
 """Joined halves: flights made of half flights and hashed on their sets.
 
 A flight is made at the leg during which half of t_max goes by, or of one half alone, as labels are
-in :mod:`windopt.solving.exact.joins`; of those over one set of turbines the fastest is kept. Every
-other turbine is marked: flights to an odd number of these are made beside those to an even one, of
-halves that are odd and even themselves, so that no set is met twice and no pair tried twice.
+in :mod:`windopt.solving.exact.joins`; of those over one set of turbines the fastest is kept.
+
+Every other turbine is marked, and the parity of a flight is that of the number of these it visits,
+the sum of its halves' parities. Flights of either parity are made apart, of pairs of halves that
+are tried for this parity only, and no set of turbines has both.
 """
 
 from typing import NamedTuple
@@ -18,7 +20,7 @@ from windopt.solving.exact.hashing import empty_slots, row_hash, same_rows
 from windopt.solving.exact.labels import Ints, Prices, Words, price_of
 from windopt.solving.exact.network import SLACK, Floats, Side
 
-Odd = NDArray[np.int64]
+Parities = NDArray[np.uint8]
 """1 for each half that visits an odd number of marked turbines, 0 for the others."""
 
 MARKED = np.uint64(0x5555555555555555)
@@ -43,9 +45,9 @@ class Sets(NamedTuple):
     set: Words
 
 
-def odd(halves: Halves) -> Odd:
-    """Tell which halves visit an odd number of marked turbines."""
-    found: Odd = np.bitwise_count(halves.set & MARKED).sum(axis=1, dtype=np.int64) & 1
+def parities(halves: Halves) -> Parities:
+    """Return the parity of each half."""
+    found: Parities = np.bitwise_count(halves.set & MARKED).sum(axis=1, dtype=np.uint8) & 1
     return found
 
 
@@ -119,8 +121,6 @@ class Terms(NamedTuple):
         Of a time bucket of halves.
     apart
         Whether to keep a flight over each set for each station.
-    odd
-        1 for the flights to an odd number of marked turbines, 0 for the others.
     """
 
     d: int
@@ -129,16 +129,16 @@ class Terms(NamedTuple):
     limit: float
     width: float
     apart: bool
-    odd: int
 
 
 @inlined
 def _add_behind(
-    backward: Halves, odd: Odd, side: Side, terms: Terms, sets: Sets, slots: Ints, count: int
-) -> tuple[Ints, int, bool]:
+    backward: Halves, own: Parities, parity: int, side: Side, terms: Terms, sets: Sets, slots: Ints,
+    count: int,
+) -> tuple[Ints, int, bool]:  # fmt: skip
     """Add the backward halves that are flights by themselves: half goes by on their first leg."""
     for b in range(len(backward.T)):
-        if odd[b] != terms.odd:
+        if own[b] != parity:
             continue
         j = backward.node[b]
         whole = side.first[j] + backward.T[b]
@@ -166,11 +166,11 @@ def _add_ahead(
 
 @inlined
 def _add_joined(
-    forward: Halves, f: int, odd: int, backward: Halves, order: NDArray[np.int64],
+    forward: Halves, f: int, backward: Halves, parity: int, order: NDArray[np.int64],
     groups: NDArray[np.int64], side: Side, prices: Prices, terms: Terms, sets: Sets, slots: Ints,
     count: int,
 ) -> tuple[Ints, int, bool]:  # fmt: skip
-    """Add a forward half, odd or not, with each backward one that goes with it."""
+    """Add a forward half with each backward one of a parity that goes with it."""
     n = len(side.first)
     buckets = (len(groups) - 1) // (2 * n)
     i = forward.node[f]
@@ -181,7 +181,7 @@ def _add_joined(
         visited = forward.set[f, j >> 6] & bit(j) != NONE
         if t <= terms.half or left < 0.0 or visited:
             continue
-        first = ((odd ^ terms.odd) * n + j) * buckets
+        first = (parity * n + j) * buckets
         for group in range(first, first + min(buckets, int(left / terms.width) + 1)):
             for b in order[groups[group] : groups[group + 1]]:
                 cost = c + backward.C[b]
@@ -208,8 +208,9 @@ def _add_joined(
 def join_halves(
     forward: Halves,
     backward: Halves,
-    odd_ahead: Odd,
-    odd_behind: Odd,
+    ahead: Parities,
+    behind: Parities,
+    parity: int,
     order: NDArray[np.int64],
     groups: NDArray[np.int64],
     side: Side,
@@ -220,12 +221,12 @@ def join_halves(
     count: int,
     stop: NDArray[np.uint8],
 ) -> tuple[Ints, int, bool]:
-    """Add the flights of one station to ``sets``.
+    """Add the flights of one station and one parity to ``sets``.
 
     Parameters
     ----------
-    odd_ahead, odd_behind
-        Whether each half, forward and backward, visits an odd number of marked turbines.
+    ahead, behind
+        The parity of each half, forward and backward.
     order, groups
         Backward halves, cheapest first within each group: those of bucket b of turbine j are
         ``order[groups[j * buckets + b] : groups[j * buckets + b + 1]]`` where they are even, and
@@ -237,15 +238,15 @@ def join_halves(
     -------
     The hash table, the number of flights in ``sets``, and whether all fitted.
     """
-    slots, count, fitted = _add_behind(backward, odd_behind, side, terms, sets, slots, count)
+    slots, count, fitted = _add_behind(backward, behind, parity, side, terms, sets, slots, count)
     for f in range(len(forward.T)):
         if not fitted or stop[0] != 0:
             return slots, count, False
-        if odd_ahead[f] == terms.odd:
+        if ahead[f] == parity:
             slots, count, fitted = _add_ahead(forward, f, side, terms, sets, slots, count)
         if fitted:
             slots, count, fitted = _add_joined(
-                forward, f, odd_ahead[f], backward, order, groups, side, prices, terms, sets, slots,
-                count,
+                forward, f, backward, parity ^ ahead[f], order, groups, side, prices, terms, sets,
+                slots, count,
             )  # fmt: skip
     return slots, count, fitted

@@ -1,6 +1,7 @@
 """The state of a search: the best plan, the bound, and the time left."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from logging import getLogger
 from math import inf, nan
 
@@ -60,6 +61,16 @@ class Search:
         self._gap = gap
         self._progress = progress
         self._merge = all(_obeys_triangle(network) for network in self.networks)
+
+    @contextmanager
+    def within(self, limit: float) -> Iterator[None]:
+        """Give what is done meanwhile ``limit`` [s]."""
+        clock = self.clock
+        try:
+            with Clock(limit) as self.clock:
+                yield
+        finally:
+            self.clock = clock
 
     @property
     def found(self) -> bool:
