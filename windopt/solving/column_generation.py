@@ -129,6 +129,8 @@ def _prove(search: Search, memory: float, seed: int) -> None:
         if attempt > 1:  # most farms are proved by the second list
             replanning.improve()
         narrowing = _narrow(closing, int(effort))
+        if attempt > 1:
+            relaxation.relent()
         rounded = relaxation.master.rounded()
         effort = min(MORE * effort, memory)  # a half flight takes more than a byte
 

@@ -8,7 +8,9 @@ import pytest
 from windopt.result import Status
 from windopt.solving.column_generation import column_generation
 from windopt.solving.exact import closing
+from windopt.solving.exact.clock import Clock
 from windopt.solving.exact.relaxation import Relaxation
+from windopt.solving.exact.search import Search
 
 
 def refusing_beyond(gap, enumerate_flights, refused):
@@ -62,3 +64,15 @@ def test_cuts_that_make_too_many_labels_leave_what_was_known_before(small, refus
         result = column_generation(instance, time_limit=5.0)
         assert result.objective == pytest.approx(small.optimum(instance), rel=1e-9)
     assert any(overfull)
+
+
+def test_rows_that_were_too_many_may_make_more_labels_later(small):
+    with Clock(60.0) as clock:
+        search = Search(small.random_instance(412), clock)
+        relaxation = Relaxation(search, 1e9, search.counts)
+        worth = relaxation.worth
+        relaxation.relent()
+        assert (relaxation.worth, relaxation.overfull) == (worth, False)
+        relaxation.overfull = True
+        relaxation.relent()
+        assert (relaxation.worth, relaxation.overfull) == (2 * worth, False)

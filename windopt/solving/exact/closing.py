@@ -18,14 +18,14 @@ from windopt.solving.exact.network import Floats
 from windopt.solving.exact.pool import Pool, reduced_costs
 from windopt.solving.exact.pricing import MOST_LABELS
 from windopt.solving.exact.rank_one_rows import Rows
-from windopt.solving.exact.relaxation import WORTH, Relaxation
+from windopt.solving.exact.relaxation import Relaxation
 from windopt.solving.exact.search import ProofError, Search
 from windopt.solving.exact.tightening import tighten
 
 FIRST_PART, LARGER, SMALLER = 0.1, 1.5, 0.5
 """Part of the gap to begin with where the whole is too much, by what it grows, and by what it
 shrinks where even the first is too much."""
-FILLED = 0.75
+FILLED = 0.7
 """Part of the room for flights that the longest list is expected to take."""
 WORTHWHILE = 1.08
 """A further list is made only where one is expected to fit that goes this many times as far as is
@@ -118,7 +118,7 @@ class Closing:
         if duals is not self.tried:
             self.tried = duals
             cuts = len(relaxation.master.cuts)
-            fixing = relaxation.fix_arcs(most=min(most, WORTH) if cuts else MOST_LABELS)
+            fixing = relaxation.fix_arcs(most=min(most, relaxation.worth) if cuts else MOST_LABELS)
             self.fixing, fixed = fixing or self.fixing, fixing is not None
             relaxation.overfull |= not fixed and cuts > 0
         return fixed

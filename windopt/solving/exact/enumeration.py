@@ -27,7 +27,7 @@ HALVES_SHARE, FLIGHTS_SHARE = 0.25, 0.35
 """Shares of the memory that half flights and flights may take."""
 UNEVEN = 0.6
 """Part of the flights that may be of one parity."""
-JOINED = 6
+JOINED = 4
 """Flights to allow for each half flight allowed."""
 BUCKETS = 24
 """Time buckets of half flights in a t_max; few, since each is sorted by cost."""

@@ -31,7 +31,8 @@ ROUNDING = 1e-6
 CHOICES = 2
 """Times to look for cuts over the flights at hand, before others are priced."""
 WORTH = 600_000
-"""Labels of one side of one station that cuts are worth; listing flights is quicker from there."""
+"""Labels of one side of one station that cuts are worth, at first; listing flights is quicker from
+there."""
 LABELS_SHARE = 0.2
 """Share of the memory that labels may take; those that fixed the legs are held as well."""
 ENTERED = 0.005
@@ -54,6 +55,8 @@ class Relaxation:
         What is known of how many flights turbines need.
     overfull
         Whether rows have made more labels than they are worth, so that no more are added.
+    worth
+        Labels of one side of one station that rows are worth.
     """
 
     search: Search
@@ -65,6 +68,7 @@ class Relaxation:
     least: float = field(init=False)
     crowding: Crowding = field(init=False)
     overfull: bool = False
+    worth: int = WORTH
 
     def __post_init__(self) -> None:
         networks = self.search.networks
@@ -181,7 +185,7 @@ class Relaxation:
     @property
     def _most(self) -> int:
         """Labels of one side of one station to make at most: fewer where they know of cuts."""
-        return WORTH if len(self.master.cuts) else MOST_LABELS
+        return self.worth if len(self.master.cuts) else MOST_LABELS
 
     def _solved_or(self, undo: Callable[[], None], most: int) -> bool:
         """Solve after a change of the master, or undo it where it makes more labels than ``most``.
@@ -202,6 +206,11 @@ class Relaxation:
         finally:
             self.pricer = pricer
         return True
+
+    def relent(self) -> None:
+        """Let rows make more labels than they were worth: lists of flights are too long as well."""
+        if self.overfull:
+            self.overfull, self.worth = False, 2 * self.worth
 
     def _recount(self, counts: Floats) -> None:
         self.counts = counts
@@ -241,7 +250,7 @@ class Relaxation:
         if not self._choose_cuts():
             return False
         undo = partial(self.master.rebuild, self.master.columns, before)
-        solved = self._solved_or(undo, min(most, WORTH))
+        solved = self._solved_or(undo, min(most, self.worth))
         return solved and gap - self.gap >= HELPFUL * gap
 
     def _choose_cuts(self) -> bool:
