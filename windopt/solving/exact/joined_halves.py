@@ -21,7 +21,6 @@ from windopt.solving.exact.labels import Ints, Prices, Words, price_of
 from windopt.solving.exact.network import SLACK, Floats, Side
 
 Parities = NDArray[np.uint8]
-"""1 for each half that visits an odd number of marked turbines, 0 for the others."""
 
 MARKED = np.uint64(0x5555555555555555)
 """The marked turbines of each word."""
@@ -46,7 +45,7 @@ class Sets(NamedTuple):
 
 
 def parities(halves: Halves) -> Parities:
-    """Return the parity of each half."""
+    """Return 1 for each half that visits an odd number of marked turbines, 0 for the others."""
     found: Parities = np.bitwise_count(halves.set & MARKED).sum(axis=1, dtype=np.uint8) & 1
     return found
 
