@@ -51,6 +51,15 @@ def test_the_certificate_of_an_optimum_passes(seed):
     assert report.proved
 
 
+def test_only_results_have_certificates_and_only_plans_are_checked():
+    result = random_result(3)
+    with pytest.raises(InvalidInput, match="result to be a Result"):
+        certify(result.solution)
+    for other in (None, result.solution.farm):
+        with pytest.raises(InvalidInput, match="plan to be a YawPlan"):
+            windopt.check(other)
+
+
 @pytest.mark.parametrize("ended", [OutOfTime, LabelsOverflow, KeyboardInterrupt])
 @pytest.mark.parametrize("after", [0, 1])
 def test_what_is_proved_before_the_end_is_kept(monkeypatch, ended, after):

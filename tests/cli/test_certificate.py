@@ -49,6 +49,21 @@ def test_a_certificate_that_is_there_is_not_overwritten(windopt, tmp_path):
     assert inspect(windopt, "--force")[0] == 0
 
 
+def test_a_certificate_cannot_be_a_folder(windopt, tmp_path):
+    (tmp_path / "proof.json").mkdir()
+    code, out, err = inspect(windopt, "--force")
+    assert (code, out) == (2, "")
+    assert "Expected --certificate to be a file" in err
+
+
+def test_a_folder_cannot_be_within_a_file(windopt):
+    code, out, err = windopt(
+        "inspect", "farm.csv", "--wind-speed", "10", "--wind-direction", "90", "--out", "farm.csv/x"
+    )
+    assert (code, out) == (2, "")
+    assert "Expected --out to be a folder, got the file farm.csv." in err
+
+
 def test_a_certificate_with_another_number_fails(windopt, tmp_path):
     inspect(windopt)
     file = tmp_path / "proof.json"

@@ -157,9 +157,9 @@ def test_the_demo_plans_the_built_in_farm(windopt, folder):
     assert windopt("check", "demo/plan.json")[0] == 0
 
 
-def test_an_interrupt_while_libraries_load_ends_quietly(windopt, monkeypatch):
+def test_an_interrupt_while_libraries_load_ends_in_a_sentence(windopt, monkeypatch):
     def interrupted():
         raise KeyboardInterrupt
 
     monkeypatch.setattr("windopt.cli._run", interrupted)
-    assert windopt("--version") == (130, "", "")
+    assert windopt("--version") == (130, "", "Stopped before there was an answer.\n")

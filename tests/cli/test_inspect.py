@@ -130,9 +130,12 @@ def test_a_start_from_other_stations_is_told_the_fleets(windopt, folder):
         (("--assignment", "farthest"), "--assignment to be nearest or a file"),
         (("--start", "nothing.json"), "nothing.json to be a readable file"),
         (("--worth", "9", "--method", "baseline"), "method exact where"),
+        (("--worth", "few.csv"), "no other, got none for A2, A3, B1, B2."),
+        (("--worth", "inf"), "worth >= 0 s and finite, got inf"),
     ],
 )
 def test_a_choice_that_cannot_be_made_is_named(windopt, folder, options, sentence):
+    (folder / "few.csv").write_text("turbine,worth\nA1,1000\n", encoding="utf-8")
     code, _, err = windopt(*CHOICE, *options)
     assert code == 2
     assert sentence in err

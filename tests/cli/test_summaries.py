@@ -81,7 +81,7 @@ def test_where_all_are_inspected_nothing_is_said_of_worth(told):
 def test_priorities_are_told_apart_from_numbers(told):
     priorities = worth_of_priorities(LONG, FEW, {"T1": 5})
     result = inspected(worth=priorities)
-    (sentence,) = (each for each in told(result) if "within reach" in each)
+    (sentence,) = (each for each in told(result) if "turbines within reach" in each)
     assert "a sum of priorities of " in sentence
     assert sentence.endswith("; no plan reaches more.")
     enough = Fleet((replace(SOUTH, max_flights=9),))

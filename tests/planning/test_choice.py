@@ -68,7 +68,7 @@ def test_a_turbine_is_inspected_where_it_is_worth_its_time():
     nothing = exact(worth=1.0)
     assert nothing.found().flights == ()
     assert nothing.objective == pytest.approx(8.0)
-    assert "below the 1 s" in nothing.found().left_out[0].reason
+    assert "less than a worth of 1 s" in nothing.found().left_out[0].reason
 
 
 @pytest.mark.parametrize("method", sorted(set(METHODS) - {"exact"}))

@@ -11,7 +11,7 @@ from windopt.checking.report import Report
 from windopt.checking.yaw import check_yaw, power_to_beat
 from windopt.domain.certificate import Certificate
 from windopt.domain.plan import InspectionPlan, Plan, YawPlan
-from windopt.errors import InvalidInput
+from windopt.errors import InvalidInput, require_kind
 from windopt.result import Result, Status
 
 Checkable = Plan | InspectionPlan | YawPlan | Result[InspectionPlan] | Result[YawPlan]
@@ -46,7 +46,10 @@ def check(plan: Checkable, certificate: Certificate | None = None) -> Report:
         return _check_steps(plan)
     if isinstance(plan, Result):
         return _check_result(plan)
-    return check_inspection(plan) if isinstance(plan, InspectionPlan) else check_yaw(plan)
+    if isinstance(plan, InspectionPlan):
+        return check_inspection(plan)
+    require_kind("plan", plan, YawPlan)
+    return check_yaw(plan)
 
 
 def _check_proof(plan: Checkable, certificate: Certificate) -> Report:

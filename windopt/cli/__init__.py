@@ -14,6 +14,7 @@ def main() -> None:
     try:
         _run()  # libraries load for a moment, in which the user may think better of it
     except KeyboardInterrupt:
+        print("Stopped before there was an answer.", file=sys.stderr)
         sys.exit(INTERRUPTED)
 
 

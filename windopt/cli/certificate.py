@@ -14,8 +14,12 @@ LACKING = 1e-6
 
 
 def require_new(path: Path | None, *, force: bool) -> None:
-    """Refuse a file that would be overwritten, before hours are spent on its content."""
-    if path is not None and path.exists() and not force:
+    """Refuse a file that cannot be written, before hours are spent on its content."""
+    if path is None:
+        return
+    if path.is_dir():
+        raise InvalidInput("--certificate", "to be a file", f"the folder {path}")
+    if path.exists() and not force:
         raise InvalidInput("--certificate", "to be a new file unless --force is given", path)
 
 
@@ -32,7 +36,8 @@ def write_proof(
     if result.solution is None:
         note(("There is no plan, and so no certificate.",))
         return
-    with progress("Proving the bound once more, for the certificate"):
+    note(("Proving the bound once more, for the certificate; Ctrl-C ends that.",))
+    with progress("Proving the bound"):
         certificate = certify(result, time_limit=time_limit, memory=memory)
     proved = certificate.proof.bound
     if proved < result.bound * (1 - LACKING):

@@ -52,8 +52,9 @@ def require_free(folder: Path | None, *, force: bool) -> None:
     """
     if folder is None:
         return
-    if folder.exists() and not folder.is_dir():
-        raise InvalidInput("--out", "to be a folder", f"the file {folder}")
+    for each in (folder, *folder.parents):
+        if each.exists() and not each.is_dir():
+            raise InvalidInput("--out", "to be a folder", f"the file {each}")
     there = [name for name in FILES if (folder / name).exists()]
     if there and not force:
         raise InvalidInput("--out", "to be a folder without them, or --force", ", ".join(there))

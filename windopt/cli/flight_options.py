@@ -174,8 +174,9 @@ class FlightOptions:
         except ValueError:
             table = read_numbers(_file("--worth", "a number", self.worth), "worth")
         if table.keys() != set(farm.names):
-            other = listed(sorted(table.keys() ^ set(farm.names)))
-            raise InvalidInput("--worth", "to name each turbine of the farm and no other", other)
+            unknown, missing = table.keys() - set(farm.names), set(farm.names) - table.keys()
+            got = listed(sorted(unknown)) if unknown else f"none for {listed(sorted(missing))}"
+            raise InvalidInput("--worth", "to name each turbine of the farm and no other", got)
         return tuple(table[name] for name in farm.names)
 
     def _assignment(self) -> Assignment | None:

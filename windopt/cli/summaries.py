@@ -69,7 +69,7 @@ def _tell(what: str, turbines: Iterable[Unreachable | LeftOut]) -> None:
     for reason, names in told[:FEW]:
         say(f"{what}: {', '.join(names)}. {reason}")
     if others := [name for _, names in told[FEW:] for name in names]:
-        say(f"{what}: {', '.join(others)}, for other reasons, which --json tells.")
+        say(f"{what}: {', '.join(others)}, for reasons of their own, which --json tells.")
 
 
 def _flights(plan: InspectionPlan) -> Table:

@@ -5,7 +5,7 @@ from math import isfinite
 from windopt.domain.certificate import Certificate
 from windopt.domain.plan import InspectionPlan
 from windopt.domain.routing import Route
-from windopt.errors import InvalidInput
+from windopt.errors import InvalidInput, require_kind
 from windopt.planning.assignment import assigned_to
 from windopt.planning.reach import routing_instance
 from windopt.planning.worth import weighed
@@ -41,7 +41,9 @@ def certify(
     from windopt.solving.certification import certify as prove  # compiled loops load slowly
     from windopt.solving.readiness import make_ready
 
+    require_kind("result", result, Result)
     plan = result.found()
+    require_kind("solution", plan, InspectionPlan)
     if not isfinite(result.bound):
         raise InvalidInput("bound", "to be proved, for a certificate", result.bound)
     make_ready()

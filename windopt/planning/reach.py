@@ -132,5 +132,5 @@ def dwell_per_turbine(farm: Farm, dwell: float | Sequence[float]) -> tuple[float
         raise InvalidInput("dwell", f"for each of {len(farm)} turbines", f"{len(dwells)} values")
     for seconds in dwells:
         if not 0 <= seconds < np.inf:
-            raise InvalidInput("dwell", ">= 0 s", seconds)
+            raise InvalidInput("dwell", ">= 0 s and finite", seconds)
     return tuple(float(seconds) for seconds in dwells)

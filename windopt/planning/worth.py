@@ -32,7 +32,7 @@ def worth_per_turbine(
         raise InvalidInput("worth", f"for each of {len(farm)} turbines", f"{len(worths)} values")
     for seconds in worths:
         if not 0 <= seconds < np.inf:
-            raise InvalidInput("worth", ">= 0 s", seconds)
+            raise InvalidInput("worth", ">= 0 s and finite", seconds)
     return tuple(float(seconds) for seconds in worths)
 
 
@@ -58,7 +58,7 @@ def worth_of_priorities(
         if name not in farm.names:
             raise InvalidInput("priority", "of a turbine of the farm", repr(name))
         if not (number >= 1 and number == int(number)):
-            raise InvalidInput(f"priority of {name}", "a whole number >= 1", number)
+            raise InvalidInput(f"priority of {name}", "to be a whole number >= 1", number)
     unit = unit_of_priority(fleet, len(farm))
     return tuple(float(unit * priority.get(name, 1)) for name in farm.names)
 
@@ -105,9 +105,9 @@ def turbines_left_out(
         if i not in visited:
             free = bool((at_home & instance.reachable[:, i]).any())
             reason = (
-                f"No flight to it was found below the {instance.prize[i]:g} s that it is worth."
+                f"No inspection for less than a worth of {instance.prize[i]:g} s was found."
                 if free
-                else "No flight is left from a station that reaches it."
+                else "No flight is left from a station within reach."
             )
             left_out.append(LeftOut(name, reason))
     return tuple(left_out)
