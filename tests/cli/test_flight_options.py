@@ -11,7 +11,7 @@ REFUSED = [
     (("--assignment", "farthest"), "--assignment to be nearest or a file that exists"),
     (("--assignment", "stations.csv"), "one column 'turbine'"),
     (("--worth", "nowhere.csv"), "--worth to be a number or a file that exists"),
-    (("--worth", "worth.csv"), "--worth to name each turbine of the farm and no other, got none for A2"),
+    (("--worth", "worth.csv"), "turbine of the farm and no other, got none for A2"),
     (("--worth", "9", "--method", "baseline"), "method exact where"),
     (("--priorities", "nowhere.csv"), "nowhere.csv to be a readable file"),
     (("--priorities", "worth.csv"), "one column 'priority'"),
