@@ -65,7 +65,7 @@ def _check_proof(plan: Checkable, certificate: Certificate) -> Report:
 
 def _check_result(result: Result[Any]) -> Report:
     if result.solution is None:
-        return Report((f"there is no plan to check: {result.reason or result.status.sentence}",))
+        return Report((f"there is no plan to check: {result.reason or result.sentence}",))
     return check(result.solution) + Report(tuple(_promises(result)))
 
 

@@ -9,9 +9,6 @@ from windopt.io.certificates import write_certificate
 from windopt.planning.certification import certify
 from windopt.result import Result
 
-LACKING = 1e-6
-"""Relative; how far a proof may fall short of the bound without a word."""
-
 
 def require_new(path: Path | None, *, force: bool) -> None:
     """Refuse a file that cannot be written, before hours are spent on its content."""
@@ -39,9 +36,9 @@ def write_proof(
     note(("Proving the bound once more, for the certificate; Ctrl-C ends that.",))
     with progress("Proving the bound"):
         certificate = certify(result, time_limit=time_limit, memory=memory)
-    proved = certificate.proof.bound
-    if proved < result.bound * (1 - LACKING):
-        lacking = f"The certificate proves {proved:.2f} s of the bound of {result.bound:.2f} s"
+    if certificate.reason:
+        proved = f"{certificate.proof.bound:.2f} s of the bound of {result.bound:.2f} s"
+        lacking = f"The certificate proves {proved}"
         note((f"{lacking}. {certificate.reason}",))
     paths = [path] if folder is None else [path, folder / "certificate.json"]
     for each in paths:

@@ -48,6 +48,6 @@ def inspect(
     if out is not None:
         write_folder(result, out, force=force)
     if certificate is not None:
-        limits = {"time_limit": asked["time_limit"], "memory": asked["memory"]}
-        write_proof(result, certificate, out, **limits, force=force)
+        time_limit, memory = asked["time_limit"], asked["memory"]
+        write_proof(result, certificate, out, time_limit=time_limit, memory=memory, force=force)
     raise typer.Exit(exit_code(result))

@@ -29,7 +29,6 @@ HEAD_START = 0.2
 
 TOO_LARGE = "To build the program would take too much of the time; this is the plan to begin with."
 
-
 ROUNDING = 1e-9
 """Seconds by which two sums of the same legs may differ."""
 
