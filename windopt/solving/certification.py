@@ -154,9 +154,10 @@ def _listed(relaxation: Relaxation, fixing: Fixing, gap: float) -> Pool | None:
     """Return the flights of a reduced cost up to ``gap``."""
     networks = fixing.useful(relaxation.pricer.networks, gap)
     search, memory = relaxation.search, relaxation.memory
-    return enumerate_flights(
+    pool, _ = enumerate_flights(
         networks, fixing, gap, EFFORT, memory, search.clock, apart=search.limited
     )
+    return pool
 
 
 def _all_left(pool: Pool, relaxation: Relaxation) -> Left:

@@ -19,7 +19,7 @@ def refusing_beyond(gap, enumerate_flights, refused):
     def listed(networks, fixing, wanted, *limits, **options):
         if wanted > gap * 1.4 ** len(refused):
             refused.append(wanted)
-            return None
+            return None, 0
         return enumerate_flights(networks, fixing, wanted, *limits, **options)
 
     return listed
@@ -42,6 +42,18 @@ def test_parts_of_the_gap_prove_the_same_optimum(small, refused, seed):
     assert result.objective == pytest.approx(small.optimum(instance), rel=1e-9)
     assert result.status is Status.OPTIMAL
     assert refused
+
+
+@pytest.mark.parametrize("seed", [412, 432, 444, 477, 479, 489, 556, 558, 566, 595, 866])
+def test_prices_of_a_list_that_are_not_good_for_the_next_are_told_from_those_that_are(
+    small, refused, monkeypatch, seed
+):
+    monkeypatch.setattr(closing, "MIX", 1.0)
+    monkeypatch.setattr(closing, "SPARE", 0.0)
+    instance = small.random_instance(seed)
+    result = column_generation(instance, time_limit=20.0)
+    assert result.objective == pytest.approx(small.optimum(instance), rel=1e-9)
+    assert result.status is Status.OPTIMAL
 
 
 def test_the_next_list_is_expected_to_grow_like_the_last():

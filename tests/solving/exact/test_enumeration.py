@@ -39,7 +39,7 @@ def listed(instance, effort=100_000, **options):
         everything = 10 * search.ceiling
         fixing = relaxation.fix_arcs(ceiling=everything)
         networks = fixing.useful(relaxation.pricer.networks, everything)
-        return enumerate_flights(networks, fixing, everything, effort, 1e9, clock, **options)
+        return enumerate_flights(networks, fixing, everything, effort, 1e9, clock, **options)[0]
 
 
 def sets(pool):

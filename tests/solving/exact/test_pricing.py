@@ -211,7 +211,7 @@ def test_all_flights_within_the_gap_are_listed_and_no_others(setting):
     fixing = relaxation.fix_arcs()
     gap = 0.3 * (search.ceiling - fixing.value)
     networks = fixing.useful(relaxation.pricer.networks, gap)
-    pool = enumerate_flights(networks, fixing, gap, 100_000, 1e9, search.clock)
+    pool, _ = enumerate_flights(networks, fixing, gap, 100_000, 1e9, search.clock)
     wanted = {}
     for flight in flights(search.networks):
         if reduced_cost_in_full(relaxation.duals, relaxation.master.cuts, flight) <= gap:

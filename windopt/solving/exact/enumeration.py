@@ -8,6 +8,7 @@ bound + gap uses no other flight [1].
 """
 
 from dataclasses import dataclass
+from math import inf
 from typing import Any
 
 import numpy as np
@@ -22,13 +23,16 @@ from windopt.solving.exact.joined_halves import Parities, Sets, Terms, join_halv
 from windopt.solving.exact.labels import Ints, Labels, Memory, Prices, turned
 from windopt.solving.exact.network import Floats, Network, Side
 from windopt.solving.exact.pool import Pool, Tree
+from windopt.solving.exact.screening import ListPrices, Screen, looked_at
 
 HALVES_SHARE, FLIGHTS_SHARE = 0.25, 0.35
 """Shares of the memory that half flights and flights may take."""
 UNEVEN = 0.6
 """Part of the flights that may be of one parity."""
 JOINED = 4
-"""Flights to allow for each half flight allowed."""
+"""Flights to hold for each half flight allowed."""
+MADE = 16
+"""Flights to make for each half flight allowed, where most of them are left out."""
 BUCKETS = 24
 """Time buckets of half flights in a t_max; few, since each is sorted by cost."""
 
@@ -42,8 +46,9 @@ def enumerate_flights(
     clock: Clock,
     *,
     apart: bool = False,
-) -> Pool | None:
-    """Return all flights of a reduced cost up to ``gap``; None where memory does not suffice.
+    screen: Screen | None = None,
+) -> tuple[Pool | None, int]:
+    """Return all flights of a reduced cost up to ``gap``; None where they are too many.
 
     Parameters
     ----------
@@ -54,22 +59,43 @@ def enumerate_flights(
         the flights; and what these may take [bytes].
     apart
         Whether to keep a flight over each set for each station, not the fastest only.
+    screen
+        Leaves out flights that it finds too dear.
+
+    Returns
+    -------
+    The list, and how many flights were made for it: several over a set, and those left out.
     """
     n, prices = len(networks[0].out), fixing.prices
+    list_prices = ListPrices.of(screen, n)
     found, half_capacity = _nothing_found(n, prices.inside.shape[1], effort, memory)
     trees = []
     for d, (network, rest) in enumerate(zip(networks, fixing.completions, strict=True)):
         network, limit = network.granted(fixing.duals.grant), float(fixing.limits(gap)[d])
         halves = _both_halves(network, prices, fixing.memory, rest, limit, half_capacity, clock)
         if halves is None:
-            return None
-        width = network.t_max / BUCKETS
-        terms = Terms(d, network.t_max, network.half, limit, width, apart)
-        if not _add_flights(found, *halves, network.forward, prices, terms, clock):
-            return None
+            return None, 0
+        terms = Terms(
+            d,
+            network.t_max,
+            network.half,
+            limit,
+            inf if screen is None else screen.limit + float(screen.prices.duals.toll[d]),
+            int(UNEVEN * most_made(effort, screened=screen is not None)),
+            network.t_max / BUCKETS,
+            apart,
+        )
+        given = prices, list_prices, terms
+        if not _add_flights(found, *halves, network.forward, *given, clock):
+            return None, _made(found)
         forward, backward = halves
         trees.append((Tree(forward.node, forward.parent), Tree(backward.node, backward.parent)))
-    return _pool(found, trees)
+    return _pool(found, trees), _made(found)
+
+
+def most_made(effort: int, *, screened: bool) -> int:
+    """Return how many flights may be made, if they are even enough."""
+    return (MADE if screened else 4 * JOINED) * effort
 
 
 def most_flights(n: int, effort: int, memory: float) -> int:
@@ -86,6 +112,11 @@ class _Found:
     sets: Sets
     slots: Ints
     count: int = 0
+    made: int = 0
+
+
+def _made(found: list[_Found]) -> int:
+    return sum(each.made for each in found)
 
 
 def _nothing_found(n: int, cuts: int, effort: int, memory: float) -> tuple[list[_Found], int]:
@@ -108,17 +139,19 @@ def _add_flights(
     backward: Halves,
     side: Side,
     prices: Prices,
+    list_prices: ListPrices,
     terms: Terms,
     clock: Clock,
 ) -> bool:
     """Add the flights of one station, both parities side by side; tell whether all fitted."""
-    ahead, behind = parities(forward), parities(backward)
-    order, groups = _grouped(backward, behind, len(side.first), terms.width)
+    odd = parities(forward), parities(backward)
+    looks = clock.map(looked_at, (forward, backward), (list_prices, list_prices))
+    order, groups = _grouped(backward, odd[1], len(side.first), terms.width)
 
     def add(parity: int, each: _Found) -> bool:
-        each.slots, each.count, whole = join_halves(
-            forward, backward, ahead, behind, parity, order, groups, side, prices, terms,
-            each.sets, each.slots, each.count, clock.stop,
+        each.slots, each.count, each.made, whole = join_halves(
+            forward, backward, *looks, *odd, parity, order, groups, side, prices, list_prices,
+            terms, each.sets, each.slots, each.count, each.made, clock.stop,
         )  # fmt: skip
         return whole
 

@@ -2,6 +2,7 @@
 
 A flight is made at the leg during which half of t_max goes by, or of one half alone, as labels are
 in :mod:`windopt.solving.exact.joins`; of those over one set of turbines the fastest is kept.
+Flights that the prices of an earlier list leave out are not.
 
 Every other turbine is marked, and the parity of a flight is that of the number of these it visits,
 the sum of its halves' parities. Flights of either parity are made apart, of pairs of halves that
@@ -19,6 +20,15 @@ from windopt.solving.exact.half_flights import Halves
 from windopt.solving.exact.hashing import empty_slots, row_hash, same_rows
 from windopt.solving.exact.labels import Ints, Prices, Words, price_of
 from windopt.solving.exact.network import SLACK, Floats, Side
+from windopt.solving.exact.rank_one_rows import BITS, Ints64
+from windopt.solving.exact.screening import (
+    ListPrices,
+    Looks,
+    count_weights,
+    earned,
+    exceeds,
+    turbines_of,
+)
 
 Parities = NDArray[np.uint8]
 
@@ -114,8 +124,10 @@ class Terms(NamedTuple):
         The station.
     t_max, half
         Longest flight, and when its halves meet.
-    limit
-        Reduced cost that none exceeds.
+    limit, screened
+        Cost that none exceeds, by the prices of labels and by those of a list.
+    most
+        Flights of one parity to make at most, those that are left out among them.
     width
         Of a time bucket of halves.
     apart
@@ -126,14 +138,16 @@ class Terms(NamedTuple):
     t_max: float
     half: float
     limit: float
+    screened: float
+    most: int
     width: float
     apart: bool
 
 
 @inlined
 def _add_behind(
-    backward: Halves, own: Parities, parity: int, side: Side, terms: Terms, sets: Sets, slots: Ints,
-    count: int,
+    backward: Halves, own: Parities, looks: Looks, parity: int, side: Side, terms: Terms,
+    sets: Sets, slots: Ints, count: int,
 ) -> tuple[Ints, int, bool]:  # fmt: skip
     """Add the backward halves that are flights by themselves: half goes by on their first leg."""
     for b in range(len(backward.T)):
@@ -142,6 +156,8 @@ def _add_behind(
         j = backward.node[b]
         whole = side.first[j] + backward.T[b]
         in_time = side.first[j] > terms.half and whole <= terms.t_max + SLACK
+        if looks.alone[b] + side.first[j] > terms.screened:
+            continue
         if in_time and backward.C[b] + side.first_cost[j] <= terms.limit:
             _union(sets, count, backward.set, b, backward.set, -1)
             slots, count, fitted = _record(sets, slots, count, whole, terms.d, -1, b, terms.apart)
@@ -152,11 +168,14 @@ def _add_behind(
 
 @inlined
 def _add_ahead(
-    forward: Halves, f: int, side: Side, terms: Terms, sets: Sets, slots: Ints, count: int
-) -> tuple[Ints, int, bool]:
+    forward: Halves, f: int, looks: Looks, side: Side, terms: Terms, sets: Sets, slots: Ints,
+    count: int,
+) -> tuple[Ints, int, bool]:  # fmt: skip
     """Add a forward half as a flight by itself."""
     i = forward.node[f]
     whole = forward.T[f] + side.last[i]
+    if looks.alone[f] + side.last[i] > terms.screened:
+        return slots, count, True
     if forward.C[f] + side.last_cost[i] > terms.limit or whole > terms.t_max + SLACK:
         return slots, count, True
     _union(sets, count, forward.set, f, forward.set, -1)
@@ -164,11 +183,36 @@ def _add_ahead(
 
 
 @inlined
+def _left_out(
+    forward: Looks, f: int, leg: float, backward: Looks, b: int, turbines: Words,
+    prices: ListPrices, counter: Words, inside: Ints64, terms: Terms, sets: Sets, count: int,
+) -> bool:  # fmt: skip
+    """Tell whether the prices of a list leave out the flight whose turbines are in row ``count``.
+
+    Parameters
+    ----------
+    counter
+        The counters of the forward half.
+    turbines
+        The sets of backward halves.
+    inside
+        Room for the turbines of one.
+    """
+    out = forward.alone[f] + leg + backward.alone[b] > terms.screened
+    if not out and counter.shape[1] > 0:
+        size = turbines_of(turbines, b, inside)
+        cost = forward.time[f] + leg + backward.time[b] - earned(prices, sets.set, count)
+        out = exceeds(prices, counter, inside, size, cost, terms.screened)
+    return out
+
+
+@inlined
 def _add_joined(
-    forward: Halves, f: int, backward: Halves, parity: int, order: NDArray[np.int64],
-    groups: NDArray[np.int64], side: Side, prices: Prices, terms: Terms, sets: Sets, slots: Ints,
-    count: int,
-) -> tuple[Ints, int, bool]:  # fmt: skip
+    forward: Halves, f: int, ahead: Looks, backward: Halves, behind: Looks, parity: int,
+    order: NDArray[np.int64], groups: NDArray[np.int64], side: Side, prices: Prices,
+    list_prices: ListPrices, counter: Words, inside: Ints64, terms: Terms, sets: Sets, slots: Ints,
+    count: int, made: int,
+) -> tuple[Ints, int, int, bool]:  # fmt: skip
     """Add a forward half with each backward one of a parity that goes with it."""
     n = len(side.first)
     buckets = (len(groups) - 1) // (2 * n)
@@ -193,59 +237,83 @@ def _add_joined(
                     cost += price_of(both, word, prices.penalty)
                 if cost > terms.limit:
                     continue
+                made += 1
                 _union(sets, count, forward.set, f, backward.set, b)
+                if _left_out(
+                    ahead, f, side.legs[i, j], behind, b, backward.set, list_prices, counter,
+                    inside, terms, sets, count,
+                ):  # fmt: skip
+                    continue
                 whole = t + backward.T[b]
                 slots, count, fitted = _record(
                     sets, slots, count, whole, terms.d, f, b, terms.apart
                 )
                 if not fitted:
-                    return slots, count, False
-    return slots, count, True
+                    return slots, count, made, False
+    return slots, count, made, made <= terms.most
 
 
 @compiled
 def join_halves(
     forward: Halves,
     backward: Halves,
-    ahead: Parities,
-    behind: Parities,
+    ahead: Looks,
+    behind: Looks,
+    odd_ahead: Parities,
+    odd_behind: Parities,
     parity: int,
     order: NDArray[np.int64],
     groups: NDArray[np.int64],
     side: Side,
     prices: Prices,
+    list_prices: ListPrices,
     terms: Terms,
     sets: Sets,
     slots: Ints,
     count: int,
+    made: int,
     stop: NDArray[np.uint8],
-) -> tuple[Ints, int, bool]:
+) -> tuple[Ints, int, int, bool]:
     """Add the flights of one station and one parity to ``sets``.
 
     Parameters
     ----------
     ahead, behind
-        The parity of each half, forward and backward.
+        What each half costs by the prices of a list, forward and backward.
+    odd_ahead, odd_behind
+        The parity of each half.
     order, groups
         Backward halves, cheapest first within each group: those of bucket b of turbine j are
         ``order[groups[j * buckets + b] : groups[j * buckets + b + 1]]`` where they are even, and
         ``n * buckets`` groups further on where they are odd.
     slots
         Hash table of the flights in ``sets``, a power of two long: rows, or -1.
+    made
+        Flights of this parity made so far, those that were left out among them.
 
     Returns
     -------
-    The hash table, the number of flights in ``sets``, and whether all fitted.
+    The hash table, the number of flights in ``sets``, how many were made, and whether that were
+    all.
     """
-    slots, count, fitted = _add_behind(backward, behind, parity, side, terms, sets, slots, count)
+    counter = np.empty((BITS, list_prices.odd.shape[1]), np.uint64)
+    inside = np.empty(len(list_prices.pi), np.int64)
+    slots, count, fitted = _add_behind(
+        backward, odd_behind, behind, parity, side, terms, sets, slots, count
+    )
     for f in range(len(forward.T)):
         if not fitted or stop[0] != 0:
-            return slots, count, False
-        if ahead[f] == parity:
-            slots, count, fitted = _add_ahead(forward, f, side, terms, sets, slots, count)
+            return slots, count, made, False
+        if odd_ahead[f] == parity:
+            slots, count, fitted = _add_ahead(
+                forward, f, ahead, side, terms, sets, slots, count
+            )
         if fitted:
-            slots, count, fitted = _add_joined(
-                forward, f, backward, parity ^ ahead[f], order, groups, side, prices, terms, sets,
-                slots, count,
+            if counter.shape[1] > 0:
+                size = turbines_of(forward.set, f, inside)
+                count_weights(list_prices, inside, size, counter)
+            slots, count, made, fitted = _add_joined(
+                forward, f, ahead, backward, behind, parity ^ odd_ahead[f], order, groups, side,
+                prices, list_prices, counter, inside, terms, sets, slots, count, made,
             )  # fmt: skip
-    return slots, count, fitted
+    return slots, count, made, fitted

@@ -71,6 +71,16 @@ class Selection:
         self._program.add_subset_rows(csr_array(hstack([left_out, flights])))
         self.rows = self.rows.joined(rows)
 
+    def keep_flights(self, keep: Bools) -> None:
+        """Keep these flights, idle ones among them."""
+        gone = (self.n + np.flatnonzero(~keep)).astype(np.int32)
+        self._program.model.deleteCols(len(gone), gone)
+        self.members, self.station = self.members[keep], self.station[keep]
+
+    def reduced_costs(self) -> Floats:
+        """Return the reduced cost of each flight."""
+        return np.array(self._program.model.getSolution().col_dual)[self.n :]
+
     def keep_rows(self, keep: Bools) -> None:
         """Keep these rows; the others must have no price."""
         self._program.keep_subset_rows(keep)

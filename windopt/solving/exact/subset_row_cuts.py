@@ -97,9 +97,7 @@ class Cuts:
         if not len(self) or not paths:
             return np.zeros((len(self), len(paths)))
         memory, inside = self.words
-        turbines = np.array([i for path in paths for i in path], np.int64)
-        ends = np.cumsum([len(path) for path in paths], dtype=np.int64)
-        return _coefficients(turbines, ends, memory, inside, len(self))
+        return _coefficients(*one_after_the_other(paths), memory, inside, len(self))
 
 
 def packed(sets: Bools) -> Words:
@@ -108,6 +106,12 @@ def packed(sets: Bools) -> Words:
     padded = np.zeros((rows, 64 * (-(-size // 64))), bool)
     padded[:, :size] = sets
     return np.packbits(padded, axis=1, bitorder="little").view(np.uint64)
+
+
+def one_after_the_other(paths: Sequence[Path]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Return the turbines of all paths, and where each path ends among them."""
+    turbines = np.array([i for path in paths for i in path], np.int64)
+    return turbines, np.cumsum([len(path) for path in paths], dtype=np.int64)
 
 
 @compiled
@@ -201,23 +205,29 @@ def separate(cuts: Cuts, flown: Sequence[tuple[Column, float]]) -> Cuts | None:
     for r, path in enumerate(paths):
         np.add.at(visits[:, r], list(path), 1)
     x = np.array([share for _, share in flown])
-    known = {tuple(t): m for t, m in zip(cuts.triples.tolist(), cuts.memory, strict=True)}
-    nothing = np.zeros((n, n), bool)
+    flat = one_after_the_other(paths)
     for least in LEAST_VIOLATIONS:
         triples, violation = violations(visits, x, least, MOST_VIOLATED)
         most = np.argsort(-violation, kind="stable")[:CANDIDATES]
-        keys = [tuple(triple) for triple in triples[most].tolist()]
-        needed = [memory_along(key, paths, n) | known.get(key, nothing) for key in keys]
-        legs = np.array([memory.sum() for memory in needed])
-        worth = violation[most] / (triples.shape[1] + legs)
-        rows = [
-            row
-            for row in spread(triples[most], worth, n, CUTS, CUTS_EACH)
-            if (needed[row] != known.get(keys[row], nothing)).any()
-        ]
-        if rows:
-            return Cuts(triples[most][rows], np.array([needed[row] for row in rows]))
+        candidates, known = triples[most], _known(cuts, triples[most])
+        needed = known | memory_along(candidates, *flat, n)
+        legs = needed.sum(axis=(1, 2))
+        rows = spread(candidates, violation[most] / (triples.shape[1] + legs), n, CUTS, CUTS_EACH)
+        rows = rows[(needed[rows] != known[rows]).any(axis=(1, 2))]
+        if len(rows):
+            return Cuts(candidates[rows], needed[rows])
     return None
+
+
+def _known(cuts: Cuts, triples: Triples) -> Bools:
+    """Return the legs on which the cuts of ``triples`` remember so far, shape ``(m, n, n)``."""
+    n = cuts.memory.shape[1]
+    memory = dict(zip(map(tuple, cuts.triples.tolist()), cuts.memory, strict=True))
+    known = np.zeros((len(triples), n, n), bool)
+    for row, triple in enumerate(map(tuple, triples.tolist())):
+        if triple in memory:
+            known[row] = memory[triple]
+    return known
 
 
 def spread(triples: Triples, violation: Floats, n: int, most: int, each: int) -> NDArray[np.intp]:
@@ -233,11 +243,33 @@ def spread(triples: Triples, violation: Floats, n: int, most: int, each: int) ->
     return np.array(chosen, np.intp)
 
 
-def memory_along(triple: Path, paths: Sequence[Path], n: int) -> Bools:
-    """Return the legs to remember on for the full coefficient of each path, shape ``(n, n)``."""
-    memory = np.zeros((n, n), bool)
-    for path in paths:
-        visits = [position for position, i in enumerate(path) if i in triple]
-        for first, second in zip(visits[::2], visits[1::2], strict=False):
-            memory[path[first:second], path[first + 1 : second + 1]] = True
+@compiled
+def memory_along(
+    triples: Triples, turbines: NDArray[np.int64], ends: NDArray[np.int64], n: int
+) -> Bools:
+    """Return the legs to remember on for the full coefficient of each path in each row.
+
+    Parameters
+    ----------
+    turbines, ends
+        Of :func:`one_after_the_other`.
+
+    Returns
+    -------
+    Shape ``(m, n, n)``.
+    """
+    memory = np.zeros((len(triples), n, n), np.bool_)
+    for row in range(len(triples)):
+        start = 0
+        for end in ends:
+            first = -1  # visits count in pairs, so nothing is remembered after a last odd one
+            for position in range(start, end):
+                if (triples[row] == turbines[position]).any():
+                    if first >= 0:
+                        for leg in range(first, position):
+                            memory[row, turbines[leg], turbines[leg + 1]] = True
+                        first = -1
+                    else:
+                        first = position
+            start = end
     return memory

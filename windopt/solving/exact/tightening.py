@@ -35,6 +35,8 @@ HELPFUL, BARELY = 0.02, 0.003
 """Part of the gap that a round of rows must close, with few flights left and with many."""
 SLOW = 0.2
 """Part of the gap below which a round of rows of three turbines is followed by larger ones."""
+NEAR = 0.5
+"""Part of the gap up to which flights stay in the linear program; dearer ones may return."""
 PRICE = 1e-7
 """Penalty up to which a row does not matter."""
 
@@ -118,6 +120,8 @@ def tighten(
         if len(pool) <= SMALL or _whole(x) or (stalls and larger):
             break
         larger, before = larger or gain < SLOW * gap, value
+        x = _keep_near(selection, x, NEAR * gap)
+        inside &= reduced <= NEAR * gap
         selection.keep_rows(duals.penalty > PRICE)
         if not _add_violated(selection, x, larger, search.clock):
             break
@@ -135,6 +139,17 @@ def _selected(
     selection = Selection(search.n, counts, rows, search.forfeit, search.ceiling, search.crowded)
     selection.add(pool.kept(inside))
     return selection, inside
+
+
+def _keep_near(selection: Selection, x: Floats, most: float) -> Floats:
+    """Leave flights of a larger reduced cost out of a program; return what it flies of the others.
+
+    Rows make a program dense, so that one of few flights is solved much sooner.
+    """
+    keep = selection.reduced_costs() <= most
+    keep[: len(selection.counts) - 1] = True  # idle flights
+    selection.keep_flights(keep)
+    return x[keep]
 
 
 def _whole(x: Floats) -> bool:
