@@ -31,7 +31,7 @@ FILLED = 0.7
 WORTHWHILE = 1.08
 """A further list is made only where one is expected to fit that goes this many times as far as is
 proved, or all the way."""
-MIX, SPARE = 0.5, 1.1
+MIX, SPARE = 0.5, 1.5
 """Part of the last list's prices in those that screen the next, the prices of labels being the rest;
 and times what these leave up to the target that a flight may cost at first."""
 WIDER = 1.5

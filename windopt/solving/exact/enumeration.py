@@ -145,8 +145,10 @@ def _add_flights(
 ) -> bool:
     """Add the flights of one station, both parities side by side; tell whether all fitted."""
     odd = parities(forward), parities(backward)
-    looks = clock.map(looked_at, (forward, backward), (list_prices, list_prices))
     order, groups = _grouped(backward, odd[1], len(side.first), terms.width)
+    backward = Halves(*(each[order] for each in backward))
+    odd = odd[0], odd[1][order]
+    looks = clock.map(looked_at, (forward, backward), (list_prices, list_prices))
 
     def add(parity: int, each: _Found) -> bool:
         each.slots, each.count, each.made, whole = join_halves(

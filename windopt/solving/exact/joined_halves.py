@@ -146,7 +146,7 @@ class Terms(NamedTuple):
 
 @inlined
 def _add_behind(
-    backward: Halves, own: Parities, looks: Looks, parity: int, side: Side, terms: Terms,
+    backward: Halves, order: NDArray[np.int64], own: Parities, looks: Looks, parity: int, side: Side, terms: Terms,
     sets: Sets, slots: Ints, count: int,
 ) -> tuple[Ints, int, bool]:  # fmt: skip
     """Add the backward halves that are flights by themselves: half goes by on their first leg."""
@@ -160,7 +160,7 @@ def _add_behind(
             continue
         if in_time and backward.C[b] + side.first_cost[j] <= terms.limit:
             _union(sets, count, backward.set, b, backward.set, -1)
-            slots, count, fitted = _record(sets, slots, count, whole, terms.d, -1, b, terms.apart)
+            slots, count, fitted = _record(sets, slots, count, whole, terms.d, -1, order[b], terms.apart)
             if not fitted:
                 return slots, count, False
     return slots, count, True
@@ -226,7 +226,7 @@ def _add_joined(
             continue
         first = (parity * n + j) * buckets
         for group in range(first, first + min(buckets, int(left / terms.width) + 1)):
-            for b in order[groups[group] : groups[group + 1]]:
+            for b in range(groups[group], groups[group + 1]):
                 cost = c + backward.C[b]
                 if cost > terms.limit:
                     break
@@ -246,7 +246,7 @@ def _add_joined(
                     continue
                 whole = t + backward.T[b]
                 slots, count, fitted = _record(
-                    sets, slots, count, whole, terms.d, f, b, terms.apart
+                    sets, slots, count, whole, terms.d, f, order[b], terms.apart
                 )
                 if not fitted:
                     return slots, count, made, False
@@ -299,7 +299,7 @@ def join_halves(
     counter = np.empty((BITS, list_prices.odd.shape[1]), np.uint64)
     inside = np.empty(len(list_prices.pi), np.int64)
     slots, count, fitted = _add_behind(
-        backward, odd_behind, behind, parity, side, terms, sets, slots, count
+        backward, order, odd_behind, behind, parity, side, terms, sets, slots, count
     )
     for f in range(len(forward.T)):
         if not fitted or stop[0] != 0:
