@@ -39,9 +39,7 @@ def listing(search, **options):
     everything = 10 * search.ceiling
     fixing = relaxation.fix_arcs(ceiling=everything)
     networks = fixing.useful(relaxation.pricer.networks, everything)
-    pool, _ = enumerate_flights(
-        networks, fixing, everything, 100_000, 1e9, search.clock, **options
-    )
+    pool, _ = enumerate_flights(networks, fixing, everything, 100_000, 1e9, search.clock, **options)
     return {(int(pool.station[r]), pool.path(r)): pool.cost[r] for r in range(len(pool))}
 
 

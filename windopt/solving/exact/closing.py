@@ -32,8 +32,8 @@ WORTHWHILE = 1.08
 """A further list is made only where one is expected to fit that goes this many times as far as is
 proved, or all the way."""
 MIX, SPARE = 0.5, 1.5
-"""Part of the last list's prices in those that screen the next, the prices of labels being the rest;
-and times what these leave up to the target that a flight may cost at first."""
+"""Part of the last list's prices in those that screen the next, the prices of labels being the
+rest; and times what these leave up to the target that a flight may cost at first."""
 WIDER = 1.5
 """Times a gap that was too wide to list which is not even tried."""
 THOROUGH = 8
@@ -176,7 +176,7 @@ class Closing:
         -------
         Whether they were not.
         """
-        search, relaxation = self.search, self.relaxation
+        search = self.search
         delta = min(delta, search.ceiling - fixing.value)
         pool, made = self._listed(delta, fixing, effort)
         if pool is None:

@@ -146,8 +146,8 @@ class Terms(NamedTuple):
 
 @inlined
 def _add_behind(
-    backward: Halves, order: NDArray[np.int64], own: Parities, looks: Looks, parity: int, side: Side, terms: Terms,
-    sets: Sets, slots: Ints, count: int,
+    backward: Halves, order: NDArray[np.int64], own: Parities, looks: Looks, parity: int,
+    side: Side, terms: Terms, sets: Sets, slots: Ints, count: int,
 ) -> tuple[Ints, int, bool]:  # fmt: skip
     """Add the backward halves that are flights by themselves: half goes by on their first leg."""
     for b in range(len(backward.T)):
@@ -160,7 +160,9 @@ def _add_behind(
             continue
         if in_time and backward.C[b] + side.first_cost[j] <= terms.limit:
             _union(sets, count, backward.set, b, backward.set, -1)
-            slots, count, fitted = _record(sets, slots, count, whole, terms.d, -1, order[b], terms.apart)
+            slots, count, fitted = _record(
+                sets, slots, count, whole, terms.d, -1, order[b], terms.apart
+            )
             if not fitted:
                 return slots, count, False
     return slots, count, True
@@ -305,9 +307,7 @@ def join_halves(
         if not fitted or stop[0] != 0:
             return slots, count, made, False
         if odd_ahead[f] == parity:
-            slots, count, fitted = _add_ahead(
-                forward, f, ahead, side, terms, sets, slots, count
-            )
+            slots, count, fitted = _add_ahead(forward, f, ahead, side, terms, sets, slots, count)
         if fitted:
             if counter.shape[1] > 0:
                 size = turbines_of(forward.set, f, inside)

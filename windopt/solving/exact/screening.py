@@ -1,16 +1,16 @@
 """Screening: flights left out of a list by the prices of the list before.
 
 Prices bound plans however they were found: a plan takes their value and the reduced costs of its
-flights. Where these fall below zero by little, a plan cheaper than a target flies only flights whose
-reduced cost is what is left up to the target and that little. The prices of a list count its rows
-in full, which labels cannot afford, and leave out most flights that the prices of labels let pass;
-those left out are made and looked at one by one, but never held.
+flights. Where these fall below zero by little, a plan cheaper than a target flies only flights
+whose reduced cost is what is left up to the target and that little. The prices of a list count its
+rows in full, which labels cannot afford, and leave out most flights that the prices of labels let
+pass; those left out are made and looked at one by one, but never held.
 
 No list tells how far flights beyond it fall below zero by its prices. A mix with prices of labels,
 by which no flight does, keeps them above it, or not much below.
 
-Rows are priced for 64 of them at a time: the sums of weights are counters of five bits, kept as five
-words, which begin at 16 less what the row asks for, so that the highest bit tells.
+Rows are priced for 64 of them at a time: the sums of weights are counters of five bits, kept as
+five words, which begin at 16 less what the row asks for, so that the highest bit tells.
 """
 
 from dataclasses import dataclass
@@ -18,7 +18,7 @@ from typing import NamedTuple, Self
 
 import numpy as np
 
-from windopt.solving.exact.bits import NONE, ONE, bit, position
+from windopt.solving.exact.bits import NONE, ONE, position
 from windopt.solving.exact.compiled import compiled
 from windopt.solving.exact.half_flights import Halves
 from windopt.solving.exact.labels import Words, price_of
@@ -125,8 +125,8 @@ class ListPrices(NamedTuple):
         """Return the prices of a screen; of none where there is none."""
         if screen is None:
             nothing, no_rows = np.zeros(0), np.zeros((n, 0), np.uint64)
-            no_sets = np.zeros((0, (n + 63) // 64), np.uint64)
-            return cls(np.zeros(n), no_sets, nothing, nothing, no_rows, no_rows, no_rows[:BITS])
+            no_sets, no_counters = (np.zeros((rows, 0), np.uint64) for rows in (0, BITS))
+            return cls(np.zeros(n), no_sets, nothing, nothing, no_rows, no_rows, no_counters)
         duals = screen.prices.duals
         rows, asked, price = _each_time(screen.prices)
         weight = np.zeros((n, rows.m), np.int64)
@@ -156,7 +156,7 @@ def _each_time(prices: RowDuals) -> tuple[Rows, Ints64, Floats]:
     price = penalty[row] / rows.right[row]
     order = np.argsort(-price, kind="stable")
     row, level = row[order], level[order]
-    asked = (level * rows.divisor[row]) 
+    asked = level * rows.divisor[row]
     return rows.kept(row), asked, price[order]
 
 
