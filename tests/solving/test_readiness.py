@@ -73,7 +73,7 @@ import numpy as np
 
 from windopt.solving import exact, readiness
 from windopt.solving.column_generation import column_generation
-from windopt.solving.exact import closing, tightening
+from windopt.solving.exact import listing, tightening
 
 
 def compiled():
@@ -99,7 +99,7 @@ if __name__ == "__main__":
     before, calls = compiled(), {}
     for name in "violations", "violated_rows":
         counted(tightening, name)
-    counted(closing, "enumerate_flights")
+    counted(listing, "enumerate_flights")
     farm = readiness._small_farm()
     longer = replace(farm, t_max=np.array([950.0]))
     two = {

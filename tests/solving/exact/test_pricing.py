@@ -18,7 +18,7 @@ from windopt.solving.exact.ng_neighbourhoods import Neighbourhoods
 from windopt.solving.exact.pricing import MOST_LABELS, Pricer
 from windopt.solving.exact.relaxation import Relaxation
 from windopt.solving.exact.search import Search, alone
-from windopt.solving.exact.subset_row_cuts import Cuts, memory_along
+from windopt.solving.exact.subset_row_cuts import Cuts, memory_along, one_after_the_other
 from windopt.solving.exact.waiting_labels import Span, empty_labels
 
 
@@ -245,5 +245,7 @@ def test_a_cut_forgets_a_visit_on_a_leg_outside_its_memory():
 
 
 def test_the_memory_of_a_cut_holds_the_legs_between_two_visits():
-    memory = memory_along((0, 1, 2), [(3, 0, 4, 1, 3, 2), (5, 2, 5)], 6)
-    assert np.argwhere(memory).tolist() == [[0, 4], [4, 1]]
+    flat = one_after_the_other([(3, 0, 4, 1, 3, 2), (5, 2, 5)])
+    first, second = memory_along(np.array([[0, 1, 2], [1, 4, 5]]), *flat, 6)
+    assert np.argwhere(first).tolist() == [[0, 4], [4, 1]]
+    assert np.argwhere(second).tolist() == [[2, 5], [4, 1], [5, 2]]

@@ -6,12 +6,13 @@ shrinks, or prove value + delta; and the rows that tighten the program over thes
 a larger delta begins with.
 """
 
-from dataclasses import dataclass, replace
-from math import inf, log
+from dataclasses import dataclass
+from math import inf
 
 from windopt.solving.exact.branching import MOST, branch
-from windopt.solving.exact.enumeration import enumerate_flights, most_flights, most_made
+from windopt.solving.exact.enumeration import PAIRS, most_flights
 from windopt.solving.exact.fixing import MARGIN, Fixing
+from windopt.solving.exact.listing import Size, affordable, list_flights
 from windopt.solving.exact.local_search import improve
 from windopt.solving.exact.master import Duals
 from windopt.solving.exact.network import Floats
@@ -19,8 +20,8 @@ from windopt.solving.exact.pool import Pool, reduced_costs
 from windopt.solving.exact.pricing import MOST_LABELS
 from windopt.solving.exact.rank_one_rows import Rows
 from windopt.solving.exact.relaxation import Relaxation
-from windopt.solving.exact.screening import RowDuals, Screen, mixed, together_below
-from windopt.solving.exact.search import ProofError, Search
+from windopt.solving.exact.row_duals import RowDuals
+from windopt.solving.exact.search import Search
 from windopt.solving.exact.tightening import tighten
 
 FIRST_PART, LARGER, SMALLER = 0.1, 1.5, 0.5
@@ -31,9 +32,6 @@ FILLED = 0.7
 WORTHWHILE = 1.08
 """A further list is made only where one is expected to fit that goes this many times as far as is
 proved, or all the way."""
-MIX, SPARE = 0.5, 1.5
-"""Part of the last list's prices in those that screen the next, the prices of labels being the
-rest; and times what these leave up to the target that a flight may cost at first."""
 WIDER = 1.5
 """Times a gap that was too wide to list which is not even tried."""
 THOROUGH = 8
@@ -56,14 +54,14 @@ class Closing:
     tried
         The duals for which legs were fixed last, or could not be.
     known
-        Duals and rows of the last list of flights, with which the next begins.
+        Duals and rows of the last list of flights, with which the next begins, and which screen
+        it.
     part
         Part of the gap to begin with where the whole is too much.
     too_wide
         The reduced cost up to which flights were too many last.
     listed
-        Reduced costs up to which flights were listed since parts of the gap were last begun with,
-        and how many were made for that.
+        Sizes of the lists since parts of the gap were last begun with.
     """
 
     relaxation: Relaxation
@@ -73,7 +71,7 @@ class Closing:
     known: RowDuals | None = None
     part: float = FIRST_PART
     too_wide: float = inf
-    listed: tuple[tuple[float, int], ...] = ()
+    listed: tuple[Size, ...] = ()
 
     @property
     def search(self) -> Search:
@@ -153,21 +151,9 @@ class Closing:
             failed = inf if fits else delta
 
     def _affordable(self, effort: int) -> float:
-        """Return the gap whose flights are expected to take much of the room for flights.
-
-        Each unit more makes flights more by the same factor, as the last two lists tell; a little
-        less, in fact. No gap that was listed is too much.
-        """
-        if len(self.listed) < 2:
-            return inf
-        (less, few), (more, many) = self.listed[-2:]
-        if not (more > less and many > few):
-            return inf
-        growth = log(many / few) / (more - less)
+        """Return the gap whose flights are expected to take much of the room and work for them."""
         room = most_flights(self.search.n, effort, self.relaxation.memory)
-        if self.known is not None:
-            room = most_made(effort, screened=True)
-        return max(more, more + log(FILLED * room / many) / growth)
+        return affordable(self.listed, FILLED * room, FILLED * PAIRS * effort)
 
     def _search_within(self, delta: float, fixing: Fixing, effort: int) -> bool:
         """Look for a plan of flights of a reduced cost up to ``delta``, unless they are too many.
@@ -178,71 +164,19 @@ class Closing:
         """
         search = self.search
         delta = min(delta, search.ceiling - fixing.value)
-        pool, made = self._listed(delta, fixing, effort)
-        if pool is None:
+        listing = list_flights(self.relaxation, fixing, delta, effort, self.known)
+        if listing is None:
             self.too_wide = delta
             search.note("too many flights within %.3f of %.3f", delta, fixing.value)
             return False
-        search.note("%d of %d flights within %.3f of %.3f", len(pool), made, delta, fixing.value)
-        self.listed += ((delta, max(1, made)),)
-        self._choose(pool, fixing, delta)
+        size = len(listing.pool), listing.pairs
+        search.note("%d flights, of %d pairs, within %.3f of %.3f", *size, delta, fixing.value)
+        self.listed += (listing.size(delta),)
+        self._choose(listing.pool, fixing, delta)
         return True
 
-    def _listed(self, delta: float, fixing: Fixing, effort: int) -> tuple[Pool | None, int]:
-        """List flights of a reduced cost up to ``delta``, but for those that are screened out.
-
-        Returns
-        -------
-        The flights, None where they are too many, and how many were made.
-        """
-        relaxation, clock = self.relaxation, self.search.clock
-        networks = fixing.useful(relaxation.pricer.networks, delta)
-        screen = self._screen(fixing, delta)
-        while True:
-            pool, made = enumerate_flights(
-                networks, fixing, delta, effort, relaxation.memory, clock,
-                apart=self.search.limited, screen=screen,
-            )  # fmt: skip
-            if pool is None:
-                return None, made
-            self._require_plan(pool, fixing, delta, screen)
-            if screen is None:
-                return pool, made
-            needed = self._left(screen.prices, fixing, delta) + self._below(screen.prices, pool)
-            if needed <= screen.limit:
-                return pool, made
-            self.search.note("screened beyond %.3f, not %.3f", needed, screen.limit)
-            screen = replace(screen, limit=needed)
-
-    def _screen(self, fixing: Fixing, delta: float) -> Screen | None:
-        """Return what the prices of the last list leave out, if they are good for the next."""
-        if self.known is None:
-            return None
-        labels = RowDuals(fixing.duals, Rows.subsets(fixing.cuts.triples))
-        prices = mixed(MIX, self.known, labels)
-        return Screen(prices, SPARE * self._left(prices, fixing, delta))
-
-    def _below(self, prices: RowDuals, pool: Pool) -> float:
-        """Return how far flights of one plan fall below zero together, at most.
-
-        Parameters
-        ----------
-        pool
-            All flights that do, among others.
-        """
-        search = self.search
-        slices = pool.slices(search.n, search.clock)
-        reduced = reduced_costs(pool, slices, prices.duals, prices.rows, search.clock)
-        lower = reduced < 0.0
-        return together_below(reduced[lower], pool.kept(lower).members(search.n))
-
-    def _left(self, prices: RowDuals, fixing: Fixing, delta: float) -> float:
-        """Return what prices leave up to the target of a list."""
-        target = min(fixing.value + delta, self.search.ceiling)
-        return max(0.0, target - prices.duals.value(self.relaxation.counts)) + MARGIN
-
     def _choose(self, pool: Pool, fixing: Fixing, delta: float) -> None:
-        """Look for a plan in ``pool``, all flights of a reduced cost up to ``delta``."""
+        """Look for a plan in ``pool``, which holds all flights of one cheaper by ``delta``."""
         search, counts = self.search, self.relaxation.counts
         target = min(fixing.value + delta, search.ceiling)
         pool, reduced, rows = self._priced(pool, fixing, delta)
@@ -266,28 +200,10 @@ class Closing:
         def reduced(duals: Duals, rows: Rows) -> Floats:
             return reduced_costs(pool, slices, duals, rows, clock)
 
-        rows = Rows.subsets(fixing.cuts.triples)
-        cost = reduced(fixing.duals, rows)
+        duals, rows = fixing.in_full
+        cost = reduced(duals, rows)
         keep = cost <= delta + MARGIN
         if self.known is not None:
             duals, rows = self.known
             cost = reduced(duals, rows)
         return pool.kept(keep), cost[keep], rows
-
-    def _require_plan(
-        self, pool: Pool, fixing: Fixing, delta: float, screen: Screen | None
-    ) -> None:
-        """Check that those flights of the best plan are in the pool which must be.
-
-        Raises
-        ------
-        ProofError
-            If one is not: then the search for flights loses some.
-        """
-        for d, path in self.search.flights:
-            time = self.search.networks[d].duration(path)
-            within = fixing.reduced_cost(d, path, time) <= delta and (
-                screen is None or screen.reduced_cost(d, path, time) <= screen.limit
-            )
-            if within and not pool.holds(path, time):
-                raise ProofError(f"The flight {path} from station {d} is not in the pool.")

@@ -2,7 +2,7 @@
 
 Half flights are joined, and the flights hashed on their set, keeping the fastest over all
 stations, or for each station where these may be short of flights. A plan cheaper than dual
-bound + gap uses no other flight [1].
+bound + gap uses no other flight [1], and of these none that a screen leaves out.
 
 * [1] Baldacci, Christofides & Mingozzi (2008), *Mathematical Programming* 115, 351-385.
 """
@@ -19,20 +19,26 @@ from windopt.solving.exact.completions import Completions
 from windopt.solving.exact.fixing import Fixing
 from windopt.solving.exact.half_flights import Halves, Interest, half_flights
 from windopt.solving.exact.hashing import empty_slots
-from windopt.solving.exact.joined_halves import Parities, Sets, Terms, join_halves, parities
+from windopt.solving.exact.joined_halves import Terms, join_halves
+from windopt.solving.exact.kept_flights import Sets
 from windopt.solving.exact.labels import Ints, Labels, Memory, Prices, turned
+from windopt.solving.exact.list_prices import ListPrices, looked_at
 from windopt.solving.exact.network import Floats, Network, Side
+from windopt.solving.exact.parities import grouped, parities
 from windopt.solving.exact.pool import Pool, Tree
-from windopt.solving.exact.screening import ListPrices, Screen, looked_at
+from windopt.solving.exact.screening import Screen
 
 HALVES_SHARE, FLIGHTS_SHARE = 0.25, 0.35
 """Shares of the memory that half flights and flights may take."""
+HALF_BYTES = 64
+"""Memory of one half flight, without its set and the parities of its cuts."""
 UNEVEN = 0.6
 """Part of the flights that may be of one parity."""
 JOINED = 4
 """Flights to hold for each half flight allowed."""
-MADE = 16
-"""Flights to make for each half flight allowed, where most of them are left out."""
+PAIRS = 16
+"""Pairs of halves to join for each half flight allowed, where most flights are left out."""
+NO_LIMIT = 2**62
 BUCKETS = 24
 """Time buckets of half flights in a t_max; few, since each is sorted by cost."""
 
@@ -48,15 +54,16 @@ def enumerate_flights(
     apart: bool = False,
     screen: Screen | None = None,
 ) -> tuple[Pool | None, int]:
-    """Return all flights of a reduced cost up to ``gap``; None where they are too many.
+    """Return the flights of a reduced cost up to ``gap``; None where they are too many.
 
     Parameters
     ----------
     networks
         Without the legs of dearer flights.
     effort, memory
-        Half flights to hold at most, for one side of one station, and a :data:`JOINED`-th of
-        the flights; and what these may take [bytes].
+        Half flights to hold at most, for one side of one station, a :data:`JOINED`-th of the
+        flights, and where they are screened a :data:`PAIRS`-th of the pairs that are joined; and
+        what half flights and flights may take [bytes].
     apart
         Whether to keep a flight over each set for each station, not the fastest only.
     screen
@@ -64,10 +71,10 @@ def enumerate_flights(
 
     Returns
     -------
-    The list, and how many flights were made for it: several over a set, and those left out.
+    The list, and how many pairs of halves were joined for it.
     """
     n, prices = len(networks[0].out), fixing.prices
-    list_prices = ListPrices.of(screen, n)
+    list_prices = ListPrices.of(screen.prices if screen else None, n)
     found, half_capacity = _nothing_found(n, prices.inside.shape[1], effort, memory)
     trees = []
     for d, (network, rest) in enumerate(zip(networks, fixing.completions, strict=True)):
@@ -75,27 +82,15 @@ def enumerate_flights(
         halves = _both_halves(network, prices, fixing.memory, rest, limit, half_capacity, clock)
         if halves is None:
             return None, 0
-        terms = Terms(
-            d,
-            network.t_max,
-            network.half,
-            limit,
-            inf if screen is None else screen.limit + float(screen.prices.duals.toll[d]),
-            int(UNEVEN * most_made(effort, screened=screen is not None)),
-            network.t_max / BUCKETS,
-            apart,
-        )
-        given = prices, list_prices, terms
-        if not _add_flights(found, *halves, network.forward, *given, clock):
-            return None, _made(found)
+        screened = inf if screen is None else screen.limit + float(screen.prices.duals.toll[d])
+        most = NO_LIMIT if screen is None else int(UNEVEN * PAIRS * effort)
+        width = network.t_max / BUCKETS
+        terms = Terms(d, network.t_max, network.half, limit, screened, most, width, apart)
+        if not _add_flights(found, *halves, network.forward, prices, list_prices, terms, clock):
+            return None, _pairs(found)
         forward, backward = halves
         trees.append((Tree(forward.node, forward.parent), Tree(backward.node, backward.parent)))
-    return _pool(found, trees), _made(found)
-
-
-def most_made(effort: int, *, screened: bool) -> int:
-    """Return how many flights may be made, if they are even enough."""
-    return (MADE if screened else 4 * JOINED) * effort
+    return _pool(found, trees), _pairs(found)
 
 
 def most_flights(n: int, effort: int, memory: float) -> int:
@@ -112,17 +107,18 @@ class _Found:
     sets: Sets
     slots: Ints
     count: int = 0
-    made: int = 0
+    joined: int = 0
 
 
-def _made(found: list[_Found]) -> int:
-    return sum(each.made for each in found)
+def _pairs(found: list[_Found]) -> int:
+    return sum(each.joined for each in found)
 
 
 def _nothing_found(n: int, cuts: int, effort: int, memory: float) -> tuple[list[_Found], int]:
     """Make room for flights of each parity, and return how many half flights a side may have."""
     words = (n + 63) // 64
-    halves = min(effort, int(HALVES_SHARE * memory / (2 * (48 + 8 * (words + cuts)))))
+    each = HALF_BYTES + 8 * (words + cuts)
+    halves = min(effort, int(HALVES_SHARE * memory / (3 * each)))  # backward ones are held twice
     rows = 1 + int(UNEVEN * most_flights(n, effort, memory))
 
     def room() -> _Found:
@@ -144,16 +140,15 @@ def _add_flights(
     clock: Clock,
 ) -> bool:
     """Add the flights of one station, both parities side by side; tell whether all fitted."""
-    odd = parities(forward), parities(backward)
-    order, groups = _grouped(backward, odd[1], len(side.first), terms.width)
-    backward = Halves(*(each[order] for each in backward))
-    odd = odd[0], odd[1][order]
-    looks = clock.map(looked_at, (forward, backward), (list_prices, list_prices))
+    odd_ahead, odd_behind = parities(forward), parities(backward)
+    order, groups = grouped(backward, odd_behind, len(side.first), BUCKETS, terms.width)
+    backward, odd_behind = backward.at(order), odd_behind[order]
+    ahead, behind = clock.map(looked_at, (forward, backward), (list_prices, list_prices))
 
     def add(parity: int, each: _Found) -> bool:
-        each.slots, each.count, each.made, whole = join_halves(
-            forward, backward, *looks, *odd, parity, order, groups, side, prices, list_prices,
-            terms, each.sets, each.slots, each.count, each.made, clock.stop,
+        each.slots, each.count, each.joined, whole = join_halves(
+            forward, backward, ahead, behind, odd_ahead, odd_behind, parity, order, groups, side,
+            prices, list_prices, terms, each.sets, each.slots, each.count, each.joined, clock.stop,
         )  # fmt: skip
         return whole
 
@@ -191,19 +186,3 @@ def _both_halves(
         halves, sides, (prices, turned(prices)), tables, ends
     )
     return (forward, backward) if whole and whole_too else None
-
-
-def _grouped(
-    found: Halves, parity: Parities, n: int, width: float
-) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Sort halves, even ones first, by turbine, time bucket and cost.
-
-    Returns
-    -------
-    The order, and where each group of one parity, turbine and bucket begins.
-    """
-    bucket = (found.T / width).astype(np.int64)
-    group = (parity.astype(np.int64) * n + found.node) * BUCKETS + bucket
-    order = np.lexsort((found.C, group))
-    begin = np.searchsorted(group[order], np.arange(2 * n * BUCKETS + 1))
-    return order, begin.astype(np.int64)

@@ -2,13 +2,13 @@
 
 from dataclasses import dataclass
 
-import numpy as np
-
 from windopt.solving.exact.completions import Completions
 from windopt.solving.exact.labels import Memory, Prices
 from windopt.solving.exact.master import Duals
 from windopt.solving.exact.network import Floats, Network
-from windopt.solving.exact.subset_row_cuts import Cuts, Path
+from windopt.solving.exact.rank_one_rows import Rows
+from windopt.solving.exact.row_duals import RowDuals
+from windopt.solving.exact.subset_row_cuts import Cuts
 
 MARGIN = 1e-4
 """What a gap is widened by before anything is dropped, for the rounding of duals."""
@@ -49,13 +49,7 @@ class Fixing:
         each = zip(networks, self.through, self.limits(gap), strict=True)
         return [network.restricted(through <= limit) for network, through, limit in each]
 
-    def reduced_cost(self, station: int, path: Path, time: float) -> float:
-        """Return the reduced cost of a flight without cycles.
-
-        Cuts are counted in full, and crowded sets once however often they are entered.
-        """
-        visits = np.isin(self.cuts.triples, path).sum(axis=1)
-        penalty = self.duals.penalty[visits >= 2].sum()
-        entered = self.duals.reward[self.duals.crowded.sets[:, list(path)].any(axis=1)].sum()
-        earned = self.duals.pi[list(path)].sum() + self.duals.toll[station] + entered
-        return float(time - earned + penalty)
+    @property
+    def in_full(self) -> RowDuals:
+        """The duals for flights without cycles, which keep cuts in full."""
+        return RowDuals(self.duals, Rows.subsets(self.cuts.triples))

@@ -37,6 +37,10 @@ class Halves(NamedTuple):
     set: Words
     S: Words
 
+    def at(self, rows: NDArray[np.int64]) -> "Halves":
+        """Return the half flights ``rows``; parents still name rows of these."""
+        return Halves(*(each[rows] for each in self))  # type: ignore[arg-type]
+
 
 class Interest(NamedTuple):
     """What flights of interest keep to.

@@ -40,6 +40,8 @@ CANDIDATES = 25
 """Turbines most often visited together with one that may stand beside it in a row."""
 BITS = 5
 """Bits of a counter that holds sixteen more than any sum of weights."""
+HIGHEST = 1 << (BITS - 1)
+"""The value of its highest bit, more than any row asks for."""
 
 Ints64 = NDArray[np.int64]
 
@@ -112,8 +114,8 @@ def reaching(slices: Words, word: int, rows: Rows, row: int, level: int) -> np.u
     slices
         Each turbine's flights as bits, shape ``(n, words)``.
     """
-    counter = np.zeros(BITS, np.uint64)  # counts from 16 - level * D, so that the top bit tells
-    start = (1 << (BITS - 1)) - level * rows.divisor[row]
+    counter = np.zeros(BITS, np.uint64)  # counts so that the highest bit tells
+    start = HIGHEST - level * rows.divisor[row]
     for b in range(BITS):
         if start >> b & 1:
             counter[b] = ~NONE

@@ -23,6 +23,11 @@ FIRST, BATCH = 4000, 1000
 """Flights in the first linear program, and to add at once."""
 ROUNDS, ROWS, EACH = 60, 100, 6
 """Rounds of rows; rows in a round, and how many of them may share a turbine."""
+CANDIDATES = 3000
+"""Most violated subset rows to choose them from."""
+SAMPLED, SHORT = 4, 1e-3
+"""One in so many flights is looked at to tell how long a row is; and what is added to that, for
+rows that none of these is in."""
 FEW = 50
 """Violated subset rows so few that rows of four and five turbines are looked for as well."""
 LEAST_VIOLATION = 0.02
@@ -120,7 +125,7 @@ def tighten(
         if len(pool) <= SMALL or _whole(x) or (stalls and larger):
             break
         larger, before = larger or gain < SLOW * gap, value
-        x = _keep_near(selection, x, NEAR * gap)
+        x = _keep_near(selection, x, NEAR * gap + MARGIN)
         inside &= reduced <= NEAR * gap
         selection.keep_rows(duals.penalty > PRICE)
         if not _add_violated(selection, x, larger, search.clock):
@@ -160,29 +165,44 @@ def _whole(x: Floats) -> bool:
 def _add_violated(selection: Selection, x: Floats, larger: bool, clock: Clock) -> bool:
     """Add rows that the plan ``x`` violates, and tell whether there are any."""
     flown = x > 1e-6
-    found = _violated(selection.members[flown], x[flown], larger, clock)
+    found = _violated(selection.members, flown, x[flown], larger, clock)
     if found.m:
         selection.cut(found)
     return bool(found.m)
 
 
-def _violated(members: Bools, x: Floats, larger: bool, clock: Clock) -> Rows:
+def _violated(members: Bools, flown: Bools, x: Floats, larger: bool, clock: Clock) -> Rows:
     """Return rows that a fractional plan violates.
 
     Parameters
     ----------
+    members
+        Whether each flight of the program visits each turbine, shape ``(flights, n)``.
+    flown, x
+        Which flights the plan flies, and how much of each of these.
     larger
         Whether to look for rows of four and five turbines even if there are enough of three.
     """
-    n = members.shape[1]
-    visits = np.ascontiguousarray(members.T.astype(np.int64))
+    visits = np.ascontiguousarray(members[flown].T.astype(np.int64))
     triples, violation = violations(visits, x, LEAST_VIOLATION, MOST_VIOLATED)
-    found = Rows.subsets(triples[spread(triples, violation, n, ROWS, EACH)])
+    most = np.argsort(-violation, kind="stable")[:CANDIDATES]
+    found = _deepest(Rows.subsets(triples[most]), violation[most], members)
     if larger or found.m < FEW:
-        others, violation = violated_rows(members, x, LEAST_VIOLATION, clock)
-        places = np.where(others.weight > 0, others.turbines, others.turbines[:, :1])
-        found = found.joined(others.kept(spread(places, violation, n, ROWS, EACH)))
+        others = violated_rows(members[flown], x, LEAST_VIOLATION, clock)
+        found = found.joined(_deepest(*others, members))
     return found
+
+
+def _deepest(rows: Rows, violation: Floats, members: Bools) -> Rows:
+    """Return the rows that cut off a plan by most, as distances go, spread over the farm.
+
+    How long a row is as a vector is told from a sample of the program's flights.
+    """
+    if not rows.m:
+        return rows
+    length = np.sqrt((rows.coefficients(members[::SAMPLED]) ** 2).mean(axis=0))
+    places = np.where(rows.weight > 0, rows.turbines, rows.turbines[:, :1])
+    return rows.kept(spread(places, violation / (length + SHORT), members.shape[1], ROWS, EACH))
 
 
 def price_out(
