@@ -7,7 +7,9 @@ import pytest
 WIND = "--wind-speed", "10", "--wind-direction", "90"
 
 
-@pytest.mark.parametrize("command", ["demo", "plan", "inspect", "yaw", "stations", "check"])
+@pytest.mark.parametrize(
+    "command", ["demo", "plan", "inspect", "yaw", "stations", "check", "farms"]
+)
 def test_every_command_has_help(windopt, command):
     code, out, _ = windopt(command, "--help")
     assert code == 0

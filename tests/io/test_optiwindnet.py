@@ -60,7 +60,7 @@ def test_an_unknown_name_lists_those_that_come_close(name, hint):
     told = str(refused.value)
     assert hint in told
     assert "a file that exists, Walney (built in) or the name of a farm of OptiWindNet" in told
-    assert "optiwindnet_names() lists all" in told
+    assert "`windopt farms` lists all" in told
     assert told.endswith(f", got {name!r}.")
 
 

@@ -7,6 +7,7 @@ import typer
 import windopt
 from windopt.cli.check import check
 from windopt.cli.demo import demo
+from windopt.cli.farms import farms
 from windopt.cli.forecast import app as forecast
 from windopt.cli.inspect import inspect
 from windopt.cli.plan import plan
@@ -20,7 +21,7 @@ app = typer.Typer(
     rich_markup_mode=None,  # units stand in brackets, which are markup to rich
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-for command in demo, plan, inspect, yaw, yaw_table, stations, check:
+for command in demo, plan, inspect, yaw, yaw_table, stations, check, farms:
     app.command()(command)
 app.add_typer(forecast, name="forecast", help="Train, ask and score forecasters of the wind.")
 

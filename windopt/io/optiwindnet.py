@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from difflib import get_close_matches
 from functools import cache
 from importlib.metadata import version
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -72,22 +72,57 @@ def _expected(key: str, names: Mapping[str, str]) -> str:
     """Return what a farm may be, with the names of those that are written much like ``key``."""
     close = dict.fromkeys(names[word] for word in get_close_matches(key, names, n=5))
     alike = f"like {', '.join(close)}; " if close else ""
-    listed = "windopt.io.optiwindnet.optiwindnet_names() lists all"
+    listed = "`windopt farms` lists all"
     return (
         f"to be a file that exists, {WALNEY} (built in) or the name of a farm of OptiWindNet "
         f"({alike}{listed})"
     )
 
 
+class ListedFarm(NamedTuple):
+    """A farm that can be loaded by name.
+
+    Attributes
+    ----------
+    name, handle
+        What it is called, and a short form of that.
+    turbines
+        How many it has.
+    on_map
+        Whether it is known where on Earth they stand.
+    """
+
+    name: str
+    handle: str
+    turbines: int
+    on_map: bool
+
+
+def optiwindnet_farms() -> tuple[ListedFarm, ...]:
+    """Return OptiWindNet's farms, in order of the alphabet.
+
+    Raises
+    ------
+    MissingExtra
+        If OptiWindNet is not installed.
+    """
+    facts = (graph.graph for graph in _graphs("A list of farms"))
+    return tuple(
+        sorted(
+            ListedFarm(farm["name"], farm["handle"], farm["T"], "utm_zone_number" in farm)
+            for farm in facts
+        )
+    )
+
+
 def optiwindnet_names() -> tuple[str, ...]:
     """Return the names of OptiWindNet's farms, in order of the alphabet."""
-    return tuple(sorted(graph.graph["name"] for graph in _graphs("A list of farms")))
+    return tuple(farm.name for farm in optiwindnet_farms())
 
 
 def optiwindnet_sizes() -> dict[str, int]:
     """Return how many turbines each of OptiWindNet's farms has that stand on the map, by handle."""
-    facts = (graph.graph for graph in _graphs("A list of farms"))
-    return {farm["handle"]: farm["T"] for farm in facts if "utm_zone_number" in farm}
+    return {farm.handle: farm.turbines for farm in optiwindnet_farms() if farm.on_map}
 
 
 def _farm(graph: Any) -> Farm:
