@@ -26,9 +26,11 @@ def farms(like: Like = "", json: Json = False) -> None:
     if json:
         typer.echo(dumps([farm._asdict() for farm in found], indent=2, ensure_ascii=False))
     else:
-        width = max((len(farm.name) for farm in found), default=0)
+        names = max((len(farm.name) for farm in found), default=0)
+        handles = max((len(farm.handle) for farm in found), default=0)
         for farm in found:
-            say(f"{farm.name:{width}}  {farm.handle:15}  {counted(farm.turbines, 'turbine')}")
-        if not found:
-            complain(f"No farm's name or handle holds {like!r}.")
+            size = counted(farm.turbines, "turbine")
+            say(f"{farm.name:{names}}  {farm.handle:{handles}}  {size}")
+    if not found:
+        complain(f"No farm's name or handle holds {like!r}.")
     raise typer.Exit(DONE if found else FAILED)

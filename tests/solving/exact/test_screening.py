@@ -98,8 +98,8 @@ def test_two_halves_pay_for_rows_what_the_flight_does():
     rng, n = np.random.default_rng(8), 100
     prices = random_prices(rng, n, 1)
     asked = ListPrices.of(prices, n)
-    assert asked.odd.shape[1] > 1
-    counter = np.empty((BITS, asked.odd.shape[1]), np.uint64)
+    assert asked.ones.shape[1] > 1
+    counter = np.empty((BITS, asked.ones.shape[1]), np.uint64)
     for _ in range(200):
         chosen = rng.permutation(n)[: rng.integers(2, 60)]
         split = int(rng.integers(1, len(chosen)))

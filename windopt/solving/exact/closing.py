@@ -134,11 +134,11 @@ class Closing:
         self.listed = ()
         while True:
             proved, whole = max(0.0, search.bound - fixing.value), search.ceiling - fixing.value
-            affordable = self._affordable(effort)
-            if affordable < min(WORTHWHILE * proved, whole):
+            most = self._affordable(effort)
+            if most < min(WORTHWHILE * proved, whole):
                 return False
             wanted = proved + part * (search.ceiling - search.bound)
-            delta = min(wanted, proved + SMALLER * (failed - proved), affordable)
+            delta = min(wanted, proved + SMALLER * (failed - proved), most)
             fits = self._search_within(delta, fixing, effort)
             if search.closed or (fits and delta >= search.ceiling - fixing.value):
                 return True
@@ -176,7 +176,7 @@ class Closing:
         return True
 
     def _choose(self, pool: Pool, fixing: Fixing, delta: float) -> None:
-        """Look for a plan in ``pool``, which holds all flights of one cheaper by ``delta``."""
+        """Look for a plan below ``fixing.value`` + ``delta``, whose flights are all in ``pool``."""
         search, counts = self.search, self.relaxation.counts
         target = min(fixing.value + delta, search.ceiling)
         pool, reduced, rows = self._priced(pool, fixing, delta)

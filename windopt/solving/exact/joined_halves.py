@@ -114,7 +114,7 @@ def _left_out(
         Room for the turbines of one.
     """
     out = bool(ahead.alone[f] + leg + behind.alone[b] > terms.screened)
-    if not out and counter.shape[1] > 0:  # without rows a set that both halves enter counts twice
+    if not out and counter.shape[1] > 0:  # without rows, sets that both halves enter count twice
         size = turbines_of(turbines, b, inside)
         cost = ahead.time[f] + leg + behind.time[b] - earned(list_prices, sets.set, count)
         out = exceeds(list_prices, counter, inside, size, cost, terms.screened)
@@ -197,10 +197,10 @@ def join_halves(
         What each half costs by the prices of a list, forward and backward.
     odd_ahead, odd_behind
         The parity of each half.
-    order, groups
-        Which each backward half was before they were sorted, cheapest first within each group:
-        those of bucket b of turbine j begin at row ``groups[j * buckets + b]`` where they are
-        even, and ``n * buckets`` groups further on where they are odd.
+    backward, order, groups
+        The backward halves are sorted, cheapest first within each group; ``order`` tells which
+        each was before. Those of bucket b of turbine j begin at row ``groups[j * buckets + b]``
+        where they are even, and ``n * buckets`` groups further on where they are odd.
     slots
         Hash table of the flights in ``sets``, a power of two long: rows, or -1.
     joined
@@ -211,7 +211,7 @@ def join_halves(
     The hash table, the number of flights in ``sets``, how many pairs were joined, and whether
     these are all.
     """
-    counter = np.empty((BITS, list_prices.odd.shape[1]), np.uint64)
+    counter = np.empty((BITS, list_prices.ones.shape[1]), np.uint64)
     inside = np.empty(len(list_prices.pi), np.int64)
     slots, count, fitted = _add_behind(
         backward, order, odd_behind, behind, parity, side, terms, sets, slots, count

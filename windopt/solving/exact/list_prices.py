@@ -1,7 +1,8 @@
 """List prices: what duals of a list, or a mix of them, ask of a flight.
 
 Rows are priced for 64 of them at a time: the sums of weights are counters of five bits, kept as
-five words, which begin at 16 less what the row asks for, so that the highest bit tells.
+five words, one for each bit, and begin at 16 less what the row asks for, so that the highest bit
+tells.
 """
 
 from typing import NamedTuple, Self
@@ -31,7 +32,7 @@ class ListPrices(NamedTuple):
         Crowded sets as bits, shape ``(sets, words)``, and what entering each earns.
     price
         Of each row, dearest first, shape ``(64 words,)``.
-    odd, even
+    ones, twos
         The lower and the higher bit of each turbine's weight in each row, shape ``(n, words)``.
     start
         Where the counters begin, shape ``(5, words)``.
@@ -41,8 +42,8 @@ class ListPrices(NamedTuple):
     crowded: Words
     reward: Floats
     price: Floats
-    odd: Words
-    even: Words
+    ones: Words
+    twos: Words
     start: Words
 
     @classmethod
@@ -94,8 +95,8 @@ class Looks(NamedTuple):
     time
         Their time, less the rewards of their turbines.
     alone
-        The same, less what sets earn and with the penalties of rows that the half pays by itself:
-        two halves together cost no less than both.
+        The same, less what crowded sets earn and with the penalties of rows that the half pays by
+        itself: two halves together cost no less than both.
     """
 
     time: Floats
@@ -105,7 +106,7 @@ class Looks(NamedTuple):
 @compiled
 def looked_at(halves: Halves, prices: ListPrices) -> Looks:
     """Price half flights."""
-    m, words = len(halves.T), prices.odd.shape[1]
+    m, words = len(halves.T), prices.ones.shape[1]
     looks, inside = Looks(np.empty(m), np.empty(m)), np.empty(len(prices.pi), np.int64)
     counter = np.empty((BITS, words), np.uint64)
     for half in range(m):
@@ -161,8 +162,8 @@ def count_weights(prices: ListPrices, inside: Ints64, size: int, counter: Words)
     counter[:] = prices.start
     for word in range(counter.shape[1]):
         for q in range(size):
-            _counted(counter, word, prices.odd[inside[q], word], 0)
-            _counted(counter, word, prices.even[inside[q], word], 1)
+            _counted(counter, word, prices.ones[inside[q], word], 0)
+            _counted(counter, word, prices.twos[inside[q], word], 1)
 
 
 @compiled
@@ -188,9 +189,9 @@ def exceeds(
         c0, c1, c2 = counter[0, word], counter[1, word], counter[2, word]
         c3, c4 = counter[3, word], counter[4, word]
         for q in range(size):
-            carry = prices.odd[inside[q], word]
+            carry = prices.ones[inside[q], word]
             c0, carry = c0 ^ carry, c0 & carry
-            more = prices.even[inside[q], word]
+            more = prices.twos[inside[q], word]
             c1, carry = c1 ^ carry ^ more, (c1 & (carry | more)) | (carry & more)
             c2, carry = c2 ^ carry, c2 & carry
             c3, carry = c3 ^ carry, c3 & carry

@@ -19,9 +19,9 @@ from windopt.solving.exact.screening import Screen, together_below
 from windopt.solving.exact.search import TOLERATED, ProofError, Search
 
 MIX, SPARE = 0.5, 1.5
-"""Part of the last list's prices in those that screen the next, the prices of labels being the
-rest; and times what these leave up to the target that a flight may cost at first. Of eight lists
-of Nysted, six needed no more than this, and larger parts of the last list's prices held more."""
+"""Share of the last list's prices in the mix that screens the next; and the first limit, in
+multiples of what the mix leaves up to the target. Of eight lists of Nysted six needed no more, and
+with larger shares most lists grew longer, since more flights fell below zero."""
 
 
 class Size(NamedTuple):
@@ -67,12 +67,16 @@ def _extrapolated(less: float, few: int, more: float, many: int, number: float) 
 def list_flights(
     relaxation: Relaxation, fixing: Fixing, delta: float, effort: int, known: RowDuals | None
 ) -> Listing | None:
-    """List the flights of all plans better than the best one that are cheaper by ``delta``.
+    """List the flights of every plan below the value of ``fixing`` + ``delta``, and the best plan.
 
     Parameters
     ----------
+    relaxation
+        Whose legs, counts of flights and memory hold.
+    fixing
+        Tells what completes labels, and their prices.
     delta
-        The plans take less than the value of ``fixing`` and this.
+        Reduced cost that no flight exceeds.
     effort
         As of :func:`~windopt.solving.exact.enumeration.enumerate_flights`.
     known
@@ -81,11 +85,18 @@ def list_flights(
     Returns
     -------
     None where the flights are too many.
+
+    Raises
+    ------
+    OutOfTime
+        If time is up.
+    ProofError
+        If a flight of the best plan is missing that must be there.
     """
     search, counts = relaxation.search, relaxation.counts
     target = min(fixing.value + delta, search.ceiling)
     networks = fixing.useful(relaxation.pricer.networks, delta)
-    screen = known and _screen(mixed(MIX, known, fixing.in_full), target, counts)
+    screen = None if known is None else _screen(known, fixing, target, counts)
     while True:
         pool, pairs = enumerate_flights(
             networks, fixing, delta, effort, relaxation.memory, search.clock,
@@ -99,12 +110,14 @@ def list_flights(
         needed = _left(screen.prices, target, counts) + _below(screen.prices, pool, search)
         if needed <= screen.limit:
             return Listing(pool, pairs)
-        search.note("screened beyond %.3f, not %.3f", needed, screen.limit)
+        search.note("screen widened from %.3f to %.3f", screen.limit, needed)
+        del pool  # before room is made for another
         screen = replace(screen, limit=needed)
 
 
-def _screen(prices: RowDuals, target: float, counts: Floats) -> Screen:
+def _screen(known: RowDuals, fixing: Fixing, target: float, counts: Floats) -> Screen:
     """Return a screen that lets enough pass, if flights fall below zero by little."""
+    prices = mixed(MIX, known, fixing.in_full)
     return Screen(prices, SPARE * _left(prices, target, counts))
 
 

@@ -2,9 +2,9 @@
 
 Prices bound plans however they were found: a plan takes their value and the reduced costs of its
 flights. Where these fall below zero by little, a plan cheaper than a target flies only flights
-whose reduced cost is what is left up to the target and that little. The prices of a list count its
-rows in full, which labels cannot afford, and leave out most flights that the prices of labels let
-pass; those left out are made and looked at one by one, but never held.
+whose reduced cost is at most what is left up to the target, and that little. The prices of a list
+count its rows in full, which labels cannot afford, and leave out most flights that the prices of
+labels let pass; those left out are made and looked at one by one, but never held.
 
 No list tells how far flights beyond it fall below zero by its prices. A mix with the prices of
 labels, by which none does, keeps them above it, or not much below. By how much those of one plan
@@ -27,7 +27,7 @@ class Screen:
     Parameters
     ----------
     prices
-        Of any flights.
+        Any duals and rows; flights may fall below zero by them.
     limit
         Of the reduced cost, not negative.
 
@@ -48,7 +48,8 @@ class Screen:
 def together_below(reduced: Floats, members: Bools) -> float:
     """Return how far flights of one plan fall below zero together, at most.
 
-    Each turbine is on one of them, so it lends no more than the largest part of a flight.
+    What a flight falls short of is shared equally among its turbines; a plan visits each once, so
+    a turbine adds no more than its largest share.
 
     Parameters
     ----------

@@ -210,7 +210,8 @@ def separate(cuts: Cuts, flown: Sequence[tuple[Column, float]]) -> Cuts | None:
         triples, violation = violations(visits, x, least, MOST_VIOLATED)
         most = np.argsort(-violation, kind="stable")[:CANDIDATES]
         candidates, known = triples[most], _known(cuts, triples[most])
-        needed = known | memory_along(candidates, *flat, n)
+        needed = memory_along(candidates, *flat, n)
+        needed |= known
         legs = needed.sum(axis=(1, 2))
         rows = spread(candidates, violation[most] / (triples.shape[1] + legs), n, CUTS, CUTS_EACH)
         rows = rows[(needed[rows] != known[rows]).any(axis=(1, 2))]
@@ -230,13 +231,21 @@ def _known(cuts: Cuts, triples: Triples) -> Bools:
     return known
 
 
-def spread(triples: Triples, violation: Floats, n: int, most: int, each: int) -> NDArray[np.intp]:
-    """Choose the most violated rows, with every turbine in at most ``each`` of them."""
+def spread(turbines: Triples, worth: Floats, n: int, most: int, each: int) -> NDArray[np.intp]:
+    """Choose the rows of most worth, with every turbine in at most ``each`` of them.
+
+    Parameters
+    ----------
+    turbines
+        Of each row, shape ``(m, size)``; one that is named twice counts once.
+    worth
+        Shape ``(m,)``.
+    """
     used = np.zeros(n, int)
     chosen = []
-    for row in np.argsort(-violation, kind="stable"):
-        if (used[triples[row]] < each).all():
-            used[triples[row]] += 1
+    for row in np.argsort(-worth, kind="stable"):
+        if (used[turbines[row]] < each).all():
+            used[turbines[row]] += 1
             chosen.append(row)
             if len(chosen) == most:
                 break

@@ -25,9 +25,8 @@ ROUNDS, ROWS, EACH = 60, 100, 6
 """Rounds of rows; rows in a round, and how many of them may share a turbine."""
 CANDIDATES = 3000
 """Most violated subset rows to choose them from."""
-SAMPLED, SHORT = 4, 1e-3
-"""One in so many flights is looked at to tell how long a row is; and what is added to that, for
-rows that none of these is in."""
+SAMPLED = 4
+"""One in so many flights is looked at to tell how long a row is."""
 FEW = 50
 """Violated subset rows so few that rows of four and five turbines are looked for as well."""
 LEAST_VIOLATION = 0.02
@@ -40,8 +39,6 @@ HELPFUL, BARELY = 0.02, 0.003
 """Part of the gap that a round of rows must close, with few flights left and with many."""
 SLOW = 0.2
 """Part of the gap below which a round of rows of three turbines is followed by larger ones."""
-NEAR = 0.5
-"""Part of the gap up to which flights stay in the linear program; dearer ones may return."""
 PRICE = 1e-7
 """Penalty up to which a row does not matter."""
 
@@ -125,8 +122,7 @@ def tighten(
         if len(pool) <= SMALL or _whole(x) or (stalls and larger):
             break
         larger, before = larger or gain < SLOW * gap, value
-        x = _keep_near(selection, x, NEAR * gap + MARGIN)
-        inside &= reduced <= NEAR * gap
+        x = _leave_out(selection, x, gap + MARGIN)
         selection.keep_rows(duals.penalty > PRICE)
         if not _add_violated(selection, x, larger, search.clock):
             break
@@ -146,12 +142,12 @@ def _selected(
     return selection, inside
 
 
-def _keep_near(selection: Selection, x: Floats, most: float) -> Floats:
+def _leave_out(selection: Selection, x: Floats, beyond: float) -> Floats:
     """Leave flights of a larger reduced cost out of a program; return what it flies of the others.
 
     Rows make a program dense, so that one of few flights is solved much sooner.
     """
-    keep = selection.reduced_costs() <= most
+    keep = selection.reduced_costs() <= beyond
     keep[: len(selection.counts) - 1] = True  # idle flights
     selection.keep_flights(keep)
     return x[keep]
@@ -194,15 +190,22 @@ def _violated(members: Bools, flown: Bools, x: Floats, larger: bool, clock: Cloc
 
 
 def _deepest(rows: Rows, violation: Floats, members: Bools) -> Rows:
-    """Return the rows that cut off a plan by most, as distances go, spread over the farm.
+    """Return the rows that a plan is farthest from, spread over the farm.
 
-    How long a row is as a vector is told from a sample of the program's flights.
+    That is violation over length; how long a row is as a vector is told from a sample of the
+    program's flights, and one of coefficient 1, which all rows have somewhere.
+
+    Parameters
+    ----------
+    violation
+        Of each row, shape ``(m,)``.
+    members
+        Whether each flight of the program visits each turbine, shape ``(flights, n)``.
     """
-    if not rows.m:
-        return rows
-    length = np.sqrt((rows.coefficients(members[::SAMPLED]) ** 2).mean(axis=0))
+    sample = rows.coefficients(members[::SAMPLED])
+    length = np.sqrt(((sample**2).sum(axis=0) + 1.0) / (len(sample) + 1))
     places = np.where(rows.weight > 0, rows.turbines, rows.turbines[:, :1])
-    return rows.kept(spread(places, violation / (length + SHORT), members.shape[1], ROWS, EACH))
+    return rows.kept(spread(places, violation / length, members.shape[1], ROWS, EACH))
 
 
 def price_out(
