@@ -76,6 +76,13 @@ def test_with_few_flights_turbines_are_left_out(windopt, folder):
     assert "Left out: " in out
 
 
+@pytest.mark.parametrize(("own", "most"), [("1", 1), ("3", 2), ("", 2)])
+def test_the_smaller_number_of_flights_holds(windopt, folder, own, most):
+    (folder / "stations.csv").write_text(f"id,x,y,max_flights\nS1,500,300,{own}\n")
+    record = planned(windopt, folder, "--max-flights", "2", "--t-max", "150")
+    assert record["stations"][0]["max_flights"] == most
+
+
 def test_priorities_choose_who_is_inspected(windopt, folder):
     few = "--max-flights", "1", "--t-max", "150"
     left_out = planned(windopt, folder, *few)["left_out"][0]

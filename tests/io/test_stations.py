@@ -77,3 +77,12 @@ def test_what_is_written_is_read_back(tmp_path):
     assert read_stations(path) == fleet
     with pytest.raises(InvalidInput, match="--force"):
         write_stations(fleet, path)
+
+
+def test_a_column_that_is_misspelt_is_refused(tmp_path):
+    path = tmp_path / "stations.csv"
+    path.write_text("id,x,y,maxflights,comment\nN,0,0,1,none\n")
+    with pytest.raises(InvalidInput, match=r"Expected stations\.csv column max_flights, got maxfl"):
+        read_stations(path)
+    path.write_text("id,x,y,max_flights,maximum,flights\nN,0,0,1,9,9\n")
+    assert read_stations(path).stations[0].max_flights == 1

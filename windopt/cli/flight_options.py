@@ -36,7 +36,8 @@ MaxFlights = Annotated[
     typer.Option(
         callback=checked(at_least(0)),
         help="Flights that each station is good for; as many turbines as possible are then "
-        "inspected (method exact). A column max_flights of the stations' file says it for each.",
+        "inspected (method exact). A column max_flights of the stations' file may say fewer for "
+        "each.",
     ),
 ]
 Worth = Annotated[
@@ -150,12 +151,12 @@ class FlightOptions:
         based = fleet(farm, self.stations, uav, dwell=self.dwell, seed=self.seed)
         if self.max_flights is None:
             return based
+        most = self.max_flights
         return Fleet(
             tuple(
-                replace(station, max_flights=self.max_flights)
-                if station.max_flights is None
-                else station
+                replace(station, max_flights=most if own is None else min(own, most))
                 for station in based.stations
+                for own in [station.max_flights]
             )
         )
 

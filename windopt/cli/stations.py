@@ -86,18 +86,20 @@ def stations(
     if json:
         typer.echo(json_text(placement_record(result, placed, beside)), nl=False)
     else:
-        _show(result, placed, beside)
+        _show(site.name, result, placed, beside)
     if out is not None and result.solution is not None:
         note((f"Written to {write_stations(result.solution, out, force=force)}.",))
     raise typer.Exit(exit_code(result))
 
 
-def _show(result: Result[Fleet], placed: Placement | None, beside: Sequence[Placement]) -> None:
-    """Print stations, what proves them and what k-means achieves."""
+def _show(
+    farm: str, result: Result[Fleet], placed: Placement | None, beside: Sequence[Placement]
+) -> None:
+    """Print the stations of a farm, what proves them and what k-means achieves."""
     if placed is None:
         say(f"No stations: {result.sentence} {result.reason}")
         return
-    table = Table("station", "x (m)", "y (m)", "turbines", title="Stations")
+    table = Table("station", "x (m)", "y (m)", "turbines", title=f"Stations for {escape(farm)}")
     for column in table.columns[1:]:
         column.justify = "right"
     for station, turbines in zip(placed.fleet.stations, placed.turbines, strict=True):

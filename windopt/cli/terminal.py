@@ -94,7 +94,7 @@ def progress(task: str, told: Told = seconds) -> Iterator[Callable[[float, float
         def update(objective: float, bound: float) -> None:
             if isfinite(objective):
                 gap = (objective - bound) / objective if objective else 0.0
-                show(f"{task}: {told(objective, bound)}, gap {percent(gap)}")
+                show(f"{task}: gap {percent(gap)}, {told(objective, bound)}")
 
         yield update
 
@@ -111,9 +111,9 @@ def counter(task: str) -> Iterator[Callable[[int, int], None]]:
 
 @contextmanager
 def _clock(task: str) -> Iterator[Callable[[str], None]]:
-    """Show a line beside a clock that runs, and yield what changes the line."""
+    """Show a line behind a clock that runs, and yield what changes the line."""
     line = TextColumn("{task.description}", markup=False)
-    columns = SpinnerColumn(), line, TimeElapsedColumn()
+    columns = SpinnerColumn(), TimeElapsedColumn(), line  # a narrow terminal cuts the end off
     with Clock(*columns, console=err, transient=True) as clock:
         only = clock.add_task(task)
         yield lambda text: clock.update(only, description=text)

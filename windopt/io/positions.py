@@ -1,7 +1,8 @@
 """Tables of points: one a row, in metres or in degrees."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from difflib import get_close_matches
 from pathlib import Path
 
 import numpy as np
@@ -17,6 +18,9 @@ ALIASES = {
     "lon": ("lon", "longitude"),
     "lat": ("lat", "latitude"),
 }
+
+ALIKE = 0.85
+"""How much like the name of a column another must be to be taken for a slip."""
 
 
 @dataclass(frozen=True)
@@ -60,6 +64,7 @@ def read_positions(path: str | Path, *, also: Sequence[str], crs: str | None = N
     def title(name: str) -> str | None:
         return next((titles[a] for a in ALIASES.get(name, (name,)) if a in titles), None)
 
+    _require_known(titles, [*ALIASES, *also], Path(path).name)
     wanted = {name: t for name in (*ALIASES, *also) if (t := title(name)) is not None}
     if not ({"x", "y"} <= set(wanted) or {"lon", "lat"} <= set(wanted)):
         got = ", ".join(titles.values())
@@ -71,3 +76,18 @@ def read_positions(path: str | Path, *, also: Sequence[str], crs: str | None = N
     longitude, latitude = columns["lon"].numbers(), columns["lat"].numbers()
     crs = crs or utm_crs_of(longitude, latitude)
     return Positions(*to_metres(crs, longitude, latitude), crs, further)
+
+
+def _require_known(titles: Mapping[str, str], known: Sequence[str], file: str) -> None:
+    """Refuse a column that nothing reads if it is written much like one that is not there.
+
+    Parameters
+    ----------
+    titles
+        Of the columns, by themselves in lower case.
+    """
+    missing = [name for name in known if name not in titles]
+    read = {*known, *(alias for aliases in ALIASES.values() for alias in aliases)}
+    for title in titles.keys() - read:
+        if close := get_close_matches(title, missing, n=1, cutoff=ALIKE):
+            raise InvalidInput(file, f"column {close[0]}", f"{titles[title]}, which nothing reads")

@@ -25,7 +25,7 @@ def turbine_sites(design: StationDesign, seed: int) -> Floats:
 
 
 def substation_sites(design: StationDesign, seed: int) -> Floats:
-    """Return the positions of the substations."""
+    """Return the positions of the substations, if any are known."""
     return np.array(design.farm.substations, dtype=float).reshape(-1, 2)
 
 
@@ -73,6 +73,11 @@ def candidate_sites(design: StationDesign, candidates: str | Floats, *, seed: in
     if isinstance(candidates, str):
         require_one_of("candidates", candidates, CANDIDATES)
         sites = CANDIDATES[candidates](design, seed)
+        if not len(sites):
+            others = ", ".join(name for name in CANDIDATES if name != candidates)
+            raise InvalidInput(
+                "candidates", f"one of {others}", f"{candidates}, of which the farm has none"
+            )
     else:
         sites = np.asarray(candidates, dtype=float)
     if sites.ndim != 2 or sites.shape[1] != 2 or not len(sites):

@@ -19,6 +19,7 @@ from windopt.domain.turbine import require_not_negative
 from windopt.result import Effort, Result, Status
 from windopt.solving.exact.clock import Clock, OutOfTime
 from windopt.solving.exact.closing import Closing
+from windopt.solving.exact.fewer_flights import fewer_flights
 from windopt.solving.exact.first_plan import find_plan
 from windopt.solving.exact.local_search import improve
 from windopt.solving.exact.pricing import LabelsOverflow
@@ -159,6 +160,8 @@ def _enter(relaxation: Relaxation) -> None:
 
 def _result(search: Search, stopped: Status, lacking: str) -> Result[tuple[Route, ...]]:
     """Return what is known, and what ran out before it was proved."""
+    if search.found:
+        search.take_as_good(fewer_flights(search.flights, search.networks))
     runtime = search.clock.elapsed
     bound = search.bound * search.unit
     if not search.found:

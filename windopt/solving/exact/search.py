@@ -18,6 +18,9 @@ LOGGER = getLogger("windopt.column_generation")
 CLOSED = 1e-6
 """Bound and objective this close are equal, in thousandths of t_max / 1000."""
 
+ROUNDED = 1e-9
+"""Parts of an objective that rounding may leave open, where it is large: worths in seconds are."""
+
 TOLERATED = 1e-3
 """A bound may exceed a plan by rounding, and by no more than this."""
 
@@ -95,7 +98,8 @@ class Search:
     @property
     def closed(self) -> bool:
         """Whether the bound proves the plan, within the gap asked for."""
-        allowed = max(CLOSED, self._gap * self.objective) if self.found else 0.0
+        gap = max(self._gap, ROUNDED)
+        allowed = max(CLOSED, gap * self.objective) if self.found else 0.0
         return self.objective - self.bound <= allowed
 
     @property
@@ -160,6 +164,11 @@ class Search:
         if bound > self.bound:
             self.bound = bound
             self._tell()
+
+    def take_as_good(self, flights: Sequence[Flight]) -> None:
+        """Take a plan that is better than the one at hand, or as good and preferred."""
+        if not self.offer(flights):
+            self.flights = tuple(flights)
 
     def routes(self) -> tuple[Route, ...]:
         """Return the best plan."""
