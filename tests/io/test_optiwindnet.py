@@ -51,7 +51,7 @@ def test_coordinates_that_cannot_be_metres_are_noted():
         ("Hornsee 2", "like Hornsea 2, "),
         ("walny", "like Walney, "),
         ("Horns rev", "like Horns Rev 3, Horns Rev 2, Horns Rev 1"),
-        ("xqzw", "OptiWindNet (windopt"),
+        ("xqzw", "OptiWindNet (`windopt farms`"),
     ],
 )
 def test_an_unknown_name_lists_those_that_come_close(name, hint):
