@@ -67,7 +67,7 @@ def _extrapolated(less: float, few: int, more: float, many: int, number: float) 
 def list_flights(
     relaxation: Relaxation, fixing: Fixing, delta: float, effort: int, known: RowDuals | None
 ) -> Listing | None:
-    """List the flights of every plan below the value of ``fixing`` + ``delta``, and the best plan.
+    """List all flights of plans that take less than ``fixing.value + delta`` and the best plan.
 
     Parameters
     ----------
