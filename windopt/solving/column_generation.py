@@ -138,8 +138,10 @@ def _prove(search: Search, memory: float, seed: int) -> None:
 
 def _narrow(closing: Closing, effort: int) -> bool:
     """Cut until much less of the gap is left, or often enough; tell whether cuts help."""
-    relaxation = closing.relaxation
-    enough = NARROWER * relaxation.gap
+    relaxation, clock = closing.relaxation, closing.search.clock
+    before, began = relaxation.gap, clock.elapsed
+    enough = NARROWER * before
+    closing.by_cuts = 0.0
     _enter(relaxation)
     for _ in range(ROUNDS):
         if relaxation.gap <= enough:
@@ -149,6 +151,7 @@ def _narrow(closing: Closing, effort: int) -> bool:
         _enter(relaxation)
         if not closing.fix(effort):
             return False
+    closing.by_cuts = (before - relaxation.gap) / max(clock.elapsed - began, 1e-3)
     return True
 
 

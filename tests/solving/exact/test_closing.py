@@ -2,16 +2,20 @@
 
 from dataclasses import replace
 from itertools import pairwise
+from threading import Barrier
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from windopt.result import Status
 from windopt.solving.column_generation import column_generation
-from windopt.solving.exact import listing, tightening
-from windopt.solving.exact.clock import Clock
+from windopt.solving.exact import branching, closing, listing, tightening
+from windopt.solving.exact.clock import Clock, OutOfTime
+from windopt.solving.exact.pool import Pool
 from windopt.solving.exact.relaxation import Relaxation
-from windopt.solving.exact.search import Search
+from windopt.solving.exact.search import Search, alone
+from windopt.solving.exact.subset_row_cuts import packed
 
 
 def refusing_beyond(gap, enumerate_flights, refused):
@@ -42,7 +46,8 @@ SEEDS = [412, 432, 444, 477, 479, 489, 556, 558, 566, 595, 866]
 @pytest.fixture
 def always_tightened(monkeypatch):
     """Add rows over lists of any size, and keep programs small, as for long lists."""
-    monkeypatch.setattr(tightening, "SMALL", 0)
+    monkeypatch.setattr(closing, "SMALL", 0)
+    monkeypatch.setattr(branching, "SMALL", 0)
     monkeypatch.setattr(tightening, "FIRST", 20)
 
 
@@ -53,6 +58,93 @@ def test_parts_of_the_gap_prove_the_same_optimum(small, refused, always_tightene
     assert result.objective == pytest.approx(small.optimum(instance), rel=1e-9)
     assert result.status is Status.OPTIMAL
     assert refused
+
+
+@pytest.fixture
+def branches(monkeypatch):
+    """Tell what is left of each branch, where lists are branched on at once and HiGHS has none."""
+    told = []
+    tightened = branching._tightened
+
+    def telling(*given):
+        left = tightened(*given)
+        told.append([len(child.pool) for child, _ in left])
+        return left
+
+    monkeypatch.setattr(branching, "MOST", -1)
+    monkeypatch.setattr(branching, "_tightened", telling)
+    monkeypatch.setattr(tightening, "ROUNDS", 1)
+    monkeypatch.setattr("windopt.solving.exact.local_search.ITERATIONS", 0)
+    return told
+
+
+def test_branching_alone_proves_the_same_optimum(small, always_tightened, branches):
+    for seed in range(300, 400):
+        instance = small.random_instance(seed)
+        result = column_generation(instance, time_limit=20.0)
+        assert result.objective == pytest.approx(small.optimum(instance), rel=1e-9)
+    assert any(len(left) == 2 and min(left) > 0 for left in branches)
+
+
+def test_the_lesser_bound_of_two_branches_stays_where_time_runs_out(small, monkeypatch):
+    both_begun = Barrier(2)
+
+    def out_of_time(pool, reduced, rows, counts, target, search, prove, few):
+        prove(counts)
+        both_begun.wait(60.0)
+        raise OutOfTime
+
+    monkeypatch.setattr(branching, "tighten", out_of_time)
+    proved = []
+    with Clock(60.0) as clock:
+        search = Search(small.random_instance(412), clock)
+        none = np.zeros(0, np.int32)
+        pool = Pool(np.zeros(0), none, none, none, packed(np.zeros((0, search.n), bool)), [])
+        both = [branching.Branch(branching.everything, bound) for bound in (13.0, 11.0)]
+        with pytest.raises(OutOfTime):
+            branching._tightened(both, pool, pool.cost, None, 20.0, search, proved.append)
+    assert proved == [11.0]
+
+
+@pytest.fixture
+def in_parts(small, monkeypatch):
+    """Return a search whose gap can be closed in parts, a second each, and the parts."""
+    parts, took = [], []
+
+    def within(closing, delta, fixing, effort):
+        parts.append(delta)
+        took.append(1.0)
+        closing.search.prove(fixing.value + delta)
+        closing.listed += (listing.Size(delta, 2 ** len(parts), 1),)
+        return True
+
+    monkeypatch.setattr(Clock, "elapsed", property(lambda clock: sum(took)))
+    monkeypatch.setattr(closing.Closing, "_search_within", within)
+    with Clock(60.0) as clock:
+        search = Search(small.random_instance(412), clock)
+        search.offer(alone(search.networks))
+        relaxation = SimpleNamespace(search=search, memory=1e9)
+        yield closing.Closing(relaxation, 0), SimpleNamespace(value=search.bound), parts
+
+
+def test_parts_grow_until_they_are_the_whole(in_parts):
+    search, fixing, parts = in_parts
+    assert search._close_parts(fixing, 1_000_000)
+    assert parts[-1] == pytest.approx(search.search.objective - fixing.value)
+    assert len(parts) > 2
+
+
+def test_parts_are_left_where_cuts_raise_the_bound_much_faster(in_parts):
+    search, fixing, parts = in_parts
+    search.by_cuts = 3.0 * (search.search.objective - fixing.value)
+    assert not search._close_parts(fixing, 1_000_000)
+    assert len(parts) == 1
+
+
+def test_no_part_is_expected_to_take_much_of_the_time_left(in_parts):
+    search, _, _ = in_parts
+    search.listed = (listing.Size(10.0, 1000, 1), listing.Size(12.0, 2000, 1))
+    assert search._in_time(60.0 * closing.SHARE / 4.0) == pytest.approx(16.0)
 
 
 @pytest.fixture

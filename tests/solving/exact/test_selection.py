@@ -67,3 +67,24 @@ def test_rows_without_a_price_may_go():
     assert before == pytest.approx(15.0)
     assert selection.rows.m == len(after.penalty) == 1
     assert after.value(counts) == pytest.approx(18.0)
+
+
+def test_branches_are_probed_and_leave_no_trace():
+    members = np.array([[1, 1, 0], [0, 1, 1], [1, 0, 1], [1, 1, 1]], bool)
+    counts = np.tile([0.0, inf], (3, 1))
+    none = Rows.subsets(np.zeros((0, 3), np.int64))
+    selection = Selection(3, counts, none, np.full(3, 50.0), 50.0, CrowdedSets.none(3))
+    selection.add(pool(members, [10.0, 10.0, 10.0, 18.0], [0, 1, 0, 1]))
+    one = counts.copy()
+    one[-1, 1] = 1.0
+    keep = np.ones(len(selection.members), bool)
+    without = keep.copy()
+    without[2] = False  # after two idle flights
+    with Clock(60.0) as clock:
+        before = selection.solve(clock)[0].value(counts)
+        assert selection.value_with(keep, one, 100, clock) == pytest.approx(18.0)
+        assert selection.value_with(without, counts, 100, clock) == pytest.approx(18.0)
+        assert selection.value_with(without, counts, 0, clock) == pytest.approx(15.0)
+        assert selection.value_with(keep, counts, 100, clock) == pytest.approx(15.0)
+        after = selection.solve(clock)[0].value(counts)
+    assert before == after == pytest.approx(15.0)

@@ -7,7 +7,7 @@ those that are open bounds every plan.
 * [1] Ryan & Foster (1981), in *Computer Scheduling of Public Transport*, 269-280.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from functools import partial
 from heapq import heappop, heappush
 from itertools import count
@@ -25,8 +25,13 @@ from windopt.solving.exact.tightening import Tightened, tighten
 
 MOST = int(LITTLE_MORE * SIZES[-1])
 """Flights that a node may leave to HiGHS."""
+SMALL = 500
+"""Flights few enough to leave a branch to HiGHS; it works alone, while branches are tightened side
+by side."""
 PAIRS = 6
 """Pairs of turbines to try branching on."""
+ITERATIONS = 100
+"""Of simplex to tell how much a branch raises the bound."""
 LEAST_GAIN = 1e-3
 """What a branch counts as raising the bound at least."""
 FRACTIONAL = 0.05
@@ -42,15 +47,19 @@ class Branch(NamedTuple):
     counts: Floats
 
 
-def branch(root: Tightened, counts: Floats, target: float, search: Search) -> None:
+def branch(root: Tightened, counts: Floats, target: float, search: Search) -> Rows:
     """Find the best plan cheaper than ``target`` over what is left of a pool, or prove it none.
 
     Parameters
     ----------
     counts
         Least and largest number of flights of each station, and of all, shape ``(k + 1, 2)``.
+
+    Returns
+    -------
+    Rank-one rows that matter in branches and not in the root.
     """
-    serial = count()
+    serial, rows = count(), root.rows.kept(np.zeros(0, np.intp))
     nodes = [(root.value, next(serial), root, counts)]
     proved = target
     while nodes:
@@ -63,7 +72,7 @@ def branch(root: Tightened, counts: Floats, target: float, search: Search) -> No
 
         prove(value)
         bound = value
-        if node is root or len(node.pool) <= MOST:
+        if len(node.pool) <= MOST:
             bound = max(value, staged_mip(node, counts, target, search, prove))
         prove(bound)
         wanted = min(target, search.ceiling)
@@ -77,25 +86,44 @@ def branch(root: Tightened, counts: Floats, target: float, search: Search) -> No
             listed = staged_mip(node, counts, target, search, prove, to_the_end=True)
             bound = max(bound, listed)
             proved = min(proved, bound, wanted)
-        for child, limits in _tightened(children, pool, reduced, node.rows, wanted, search):
+        for child, limits in _tightened(children, pool, reduced, node.rows, wanted, search, prove):
             left = max(child.value, bound)
             search.note("node with %d flights above %.3f", len(child.pool), left)
-            heappush(nodes, (left, next(serial), child, limits))
+            rows = rows.joined(child.rows)
+            if len(child.pool):
+                heappush(nodes, (left, next(serial), child, limits))
     search.prove(min(proved, search.ceiling))
+    return rows.without(root.rows)
 
 
 def _tightened(
-    branches: list[Branch], pool: Pool, reduced: Floats, rows: Rows, target: float, search: Search
-) -> Iterator[tuple[Tightened, Floats]]:
-    """Yield what is left of each branch that may hold a plan cheaper than ``target``."""
+    branches: list[Branch],
+    pool: Pool,
+    reduced: Floats,
+    rows: Rows,
+    target: float,
+    search: Search,
+    prove: Callable[[float], None],
+) -> list[tuple[Tightened, Floats]]:
+    """Return what is left of each branch, all tightened side by side."""
     members = pool.members(search.n)
-    for part_of, counts in branches:
-        part = part_of(members)
+    bounds = np.full(len(branches), -np.inf)
+
+    def tightened(which: int, branch: Branch) -> tuple[Tightened, Floats]:
+        part = branch.part(members)
+        reached = partial(bounds.__setitem__, which)
         left = tighten(
-            pool.kept(part), reduced[part], rows, counts, target, search, prove=lambda _: None
+            pool.kept(part), reduced[part], rows, branch.counts, target, search, reached, SMALL
         )
-        if len(left.pool):
-            yield left, counts
+        return left, branch.counts
+
+    try:
+        left: list[tuple[Tightened, Floats]] = search.clock.side_by_side(
+            tightened, range(len(branches)), branches
+        )
+    finally:
+        prove(float(bounds.min(initial=target)))
+    return left
 
 
 def _children(node: Tightened, counts: Floats, target: float, search: Search) -> list[Branch]:
@@ -109,7 +137,9 @@ def _children(node: Tightened, counts: Floats, target: float, search: Search) ->
         return candidates[0] if candidates else []
 
     def gain(branch: Branch) -> float:
-        value = node.selection.value_with(branch.part(members), branch.counts, search.clock)
+        value = node.selection.value_with(
+            branch.part(members), branch.counts, ITERATIONS, search.clock
+        )
         return max(min(value, target) - node.value, LEAST_GAIN)
 
     gains = [[gain(branch) for branch in branches] for branches in candidates]

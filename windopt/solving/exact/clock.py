@@ -5,7 +5,7 @@ when time is up, and when the user interrupts, whom the waiting main thread can 
 """
 
 from collections.abc import Callable, Iterable
-from concurrent.futures import ThreadPoolExecutor, wait
+from concurrent.futures import FIRST_EXCEPTION, ThreadPoolExecutor, wait
 from math import inf
 from os import cpu_count
 from threading import Timer
@@ -41,6 +41,7 @@ class Clock:
         self.stop = np.zeros(1, np.uint8)
         self.threads = min(4, cpu_count() or 1)
         self.workers = ThreadPoolExecutor(self.threads)
+        self.leaders = ThreadPoolExecutor(self.threads)  # who wait for workers
         self._alarm = Timer(max(0.0, min(limit, 1e7)), self.halt)
         self._alarm.daemon = True
 
@@ -56,6 +57,7 @@ class Clock:
     ) -> None:
         self.halt()
         self._alarm.cancel()
+        self.leaders.shutdown()
         self.workers.shutdown()
 
     @property
@@ -79,12 +81,24 @@ class Clock:
 
     def map(self, function: Callable[..., Any], *arguments: Iterable[Any]) -> list[Any]:
         """Call ``function`` on each set of arguments, in threads, and wait for all."""
+        return self._map(self.workers, function, *arguments)
+
+    def side_by_side(self, function: Callable[..., Any], *arguments: Iterable[Any]) -> list[Any]:
+        """As :meth:`map`, for functions that call it themselves."""
+        return self._map(self.leaders, function, *arguments)
+
+    def _map(
+        self, team: ThreadPoolExecutor, function: Callable[..., Any], *arguments: Iterable[Any]
+    ) -> list[Any]:
+        """Call ``function`` on each set of arguments, in the threads of a team."""
         self.check()
-        futures = [self.workers.submit(function, *each) for each in zip(*arguments, strict=True)]
+        futures = [team.submit(function, *each) for each in zip(*arguments, strict=True)]
+        pending = set(futures)
         try:
-            while wait(futures, timeout=POLL).not_done:
-                pass  # between two waits Python hears the user
-            results = [future.result() for future in futures]
+            while pending:  # between two waits Python hears the user
+                done, pending = wait(pending, POLL, FIRST_EXCEPTION)
+                for future in done:
+                    future.result()
         except BaseException:
             self.halt()
             for future in futures:
@@ -92,7 +106,7 @@ class Clock:
             wait(futures)
             raise
         self.check()
-        return results
+        return [future.result() for future in futures]
 
     def run(self, model: highspy.Highs) -> None:
         """Solve a small linear program, or raise :class:`OutOfTime`."""

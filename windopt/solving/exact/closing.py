@@ -24,14 +24,20 @@ from windopt.solving.exact.row_duals import RowDuals
 from windopt.solving.exact.search import Search
 from windopt.solving.exact.tightening import tighten
 
-FIRST_PART, LARGER, SMALLER = 0.1, 1.5, 0.5
+SMALL = 1500
+"""Flights of a list few enough to leave them to HiGHS."""
+FIRST_PART, LARGER, SMALLER = 0.1, 2.0, 0.5
 """Part of the gap to begin with where the whole is too much, by what it grows, and by what it
 shrinks where even the first is too much."""
+SHARE = 0.6
+"""Part of the time left that a list is expected to take at most, told from the last two."""
 FILLED = 0.7
 """Part of the room for flights that the longest list is expected to take."""
 WORTHWHILE = 1.08
 """A further list is made only where one is expected to fit that goes this many times as far as is
 proved, or all the way."""
+SLOWER = 0.5
+"""Times as fast as cuts raised the bound that lists must raise it to go on while cuts help."""
 WIDER = 1.5
 """Times a gap that was too wide to list which is not even tried."""
 THOROUGH = 8
@@ -62,6 +68,9 @@ class Closing:
         The reduced cost up to which flights were too many last.
     listed
         Sizes of the lists since parts of the gap were last begun with.
+    by_cuts
+        By how much cuts raised the bound of the relaxation per second, zero where they no longer
+        help.
     """
 
     relaxation: Relaxation
@@ -72,6 +81,7 @@ class Closing:
     part: float = FIRST_PART
     too_wide: float = inf
     listed: tuple[Size, ...] = ()
+    by_cuts: float = 0.0
 
     @property
     def search(self) -> Search:
@@ -128,17 +138,19 @@ class Closing:
     def _close_parts(self, fixing: Fixing, effort: int) -> bool:
         """Close ever larger parts of the gap, and tell whether that came to the whole.
 
-        Where one is too much after others were not, one between the two is the last.
+        Where one is too much after others were not, one between the two is the last; and where
+        cuts raise the bound much faster, they go on.
         """
-        search, part, failed = self.search, self.part, inf
+        search, part, failed, took = self.search, self.part, inf, inf
         self.listed = ()
         while True:
             proved, whole = max(0.0, search.bound - fixing.value), search.ceiling - fixing.value
-            most = self._affordable(effort)
+            most = min(self._affordable(effort), self._in_time(took))
             if most < min(WORTHWHILE * proved, whole):
                 return False
             wanted = proved + part * (search.ceiling - search.bound)
             delta = min(wanted, proved + SMALLER * (failed - proved), most)
+            before, began = search.bound, search.clock.elapsed
             fits = self._search_within(delta, fixing, effort)
             if search.closed or (fits and delta >= search.ceiling - fixing.value):
                 return True
@@ -147,6 +159,9 @@ class Closing:
                 return False
             if failed < inf:
                 return False
+            took = search.clock.elapsed - began
+            if fits and search.bound - before < SLOWER * self.by_cuts * took:
+                return False
             part = min(1.0, LARGER * part)
             failed = inf if fits else delta
 
@@ -154,6 +169,19 @@ class Closing:
         """Return the gap whose flights are expected to take much of the room and work for them."""
         room = most_flights(self.search.n, effort, self.relaxation.memory)
         return affordable(self.listed, FILLED * room, FILLED * PAIRS * effort)
+
+    def _in_time(self, took: float) -> float:
+        """Return the gap whose list is expected to take a part of the time left.
+
+        Parameters
+        ----------
+        took
+            The time that the last list took [s].
+        """
+        if not self.listed:
+            return inf
+        more = SHARE * self.search.clock.left / took
+        return affordable(self.listed, inf, more * self.listed[-1].pairs)
 
     def _search_within(self, delta: float, fixing: Fixing, effort: int) -> bool:
         """Look for a plan of flights of a reduced cost up to ``delta``, unless they are too many.
@@ -180,13 +208,13 @@ class Closing:
         search, counts = self.search, self.relaxation.counts
         target = min(fixing.value + delta, search.ceiling)
         pool, reduced, rows = self._priced(pool, fixing, delta)
-        tight = tighten(pool, reduced, rows, counts, target, search, search.prove)
+        tight = tighten(pool, reduced, rows, counts, target, search, search.prove, SMALL)
         self.known = RowDuals(tight.duals, tight.rows)
-        if len(tight.pool) > MOST:
+        if len(tight.pool) > MOST and target == search.ceiling:
             improve(search, self.seed, THOROUGH, self.relaxation.master.rounded())
         if len(tight.pool):
             search.note("%d flights left above %.3f", len(tight.pool), tight.value)
-            branch(tight, counts, target, search)
+            self.known = self.known.beside(branch(tight, counts, target, search))
 
     def _priced(self, pool: Pool, fixing: Fixing, delta: float) -> tuple[Pool, Floats, Rows]:
         """Return flights up to ``delta``, a guess at their reduced costs, and rows to begin with.

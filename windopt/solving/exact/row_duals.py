@@ -1,5 +1,6 @@
 """Duals of rows that count in full, as they do over a list of flights without cycles."""
 
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -14,6 +15,16 @@ class RowDuals(NamedTuple):
 
     duals: Duals
     rows: Rows
+
+    def without_small(self, least: float) -> "RowDuals":
+        """Return the same duals of the rows whose penalty is larger than ``least``."""
+        keep = self.duals.penalty > least
+        return RowDuals(replace(self.duals, penalty=self.duals.penalty[keep]), self.rows.kept(keep))
+
+    def beside(self, rows: Rows) -> "RowDuals":
+        """Return the same duals of these and more rows, which have no price."""
+        penalty = np.append(self.duals.penalty, np.zeros(rows.m))
+        return RowDuals(replace(self.duals, penalty=penalty), self.rows.joined(rows))
 
     def reduced_cost(self, station: int, path: Path, time: float) -> float:
         """Return the reduced cost of a flight without cycles.

@@ -93,22 +93,35 @@ class Selection:
         duals = Duals.of(self._program, self.price, self.crowded)
         return duals, np.array(model.getSolution().col_value)[self.n :]
 
-    def value_with(self, keep: Bools, counts: Floats, clock: Clock) -> float:
-        """Return the value of the program with the flights ``keep`` and other limits on counts."""
+    def value_with(self, keep: Bools, counts: Floats, iterations: int, clock: Clock) -> float:
+        """Return what the program's value rises to with fewer flights and other counts.
+
+        Parameters
+        ----------
+        keep
+            Flights that stay, all others are dropped.
+        iterations
+            Of the dual simplex, after which the value reached so far is returned.
+        """
+        clock.check()
         model = self._program.model
+        basis = model.getBasis()
         rows = np.arange(self.n, self.n + len(counts), dtype=np.int32)
         dropped = (self.n + np.flatnonzero(~keep)).astype(np.int32)
         nothing = np.zeros(len(dropped))
         model.changeRowsBounds(len(rows), rows, counts[:, 0].copy(), counts[:, 1].copy())
         model.changeColsBounds(len(dropped), dropped, nothing, nothing)
-        clock.check()
+        model.setOptionValue("simplex_strategy", DUAL)
+        model.setOptionValue("simplex_iteration_limit", iterations)
         model.setOptionValue("time_limit", model.getRunTime() + clock.left)
         model.run()
-        solved = model.getModelStatus() == highspy.HighsModelStatus.kOptimal
-        value = float(model.getInfo().objective_function_value) if solved else np.inf
+        infeasible = model.getModelStatus() == highspy.HighsModelStatus.kInfeasible
+        value = np.inf if infeasible else float(model.getInfo().objective_function_value)
         own = self.counts
         model.changeRowsBounds(len(rows), rows, own[:, 0].copy(), own[:, 1].copy())
         model.changeColsBounds(len(dropped), dropped, nothing, np.full(len(dropped), np.inf))
+        model.setOptionValue("simplex_iteration_limit", highspy.kHighsIInf)
+        model.setBasis(basis)
         return value
 
 

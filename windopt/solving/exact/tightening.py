@@ -5,7 +5,7 @@ hundred; each round raises the bound and drops the flights beyond the gap that i
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -15,6 +15,7 @@ from windopt.solving.exact.master import Duals
 from windopt.solving.exact.network import Bools, Floats
 from windopt.solving.exact.pool import Pool, reduced_costs
 from windopt.solving.exact.rank_one_rows import Rows, violated_rows
+from windopt.solving.exact.row_duals import RowDuals
 from windopt.solving.exact.search import Search
 from windopt.solving.exact.selection import Selection
 from windopt.solving.exact.subset_row_cuts import MOST_VIOLATED, spread, violations
@@ -31,11 +32,9 @@ FEW = 50
 """Violated subset rows so few that rows of four and five turbines are looked for as well."""
 LEAST_VIOLATION = 0.02
 """Violation from which a row is added."""
-SMALL = 1500
-"""Flights few enough to leave the rest to branch and bound."""
-SATISFIED = 15_000
+SATISFIED = 60_000
 """Flights few enough to stop when rows no longer help much."""
-HELPFUL, BARELY = 0.02, 0.003
+HELPFUL, BARELY = 0.2, 0.003
 """Part of the gap that a round of rows must close, with few flights left and with many."""
 SLOW = 0.2
 """Part of the gap below which a round of rows of three turbines is followed by larger ones."""
@@ -52,7 +51,8 @@ class Tightened:
     pool
         Empty where the bound has reached its target.
     duals, rows
-        The prices that prove the bound, and the rank-one rows that matter, one to a penalty.
+        The prices that prove the bound, and no more, and the rank-one rows that matter, one to a
+        penalty.
     value
         The bound.
     selection, x
@@ -90,6 +90,7 @@ def tighten(
     target: float,
     search: Search,
     prove: Callable[[float], None],
+    few: int,
 ) -> Tightened:
     """Raise the bound over ``pool`` towards ``target``.
 
@@ -101,6 +102,8 @@ def tighten(
         Least and largest number of flights of each station, and of all, shape ``(k + 1, 2)``.
     target, prove
         Only plans cheaper than ``target`` are looked for; ``prove`` is told of bounds on them.
+    few
+        Flights few enough to leave the rest to branch and bound.
 
     Returns
     -------
@@ -110,25 +113,24 @@ def tighten(
     before, larger = -np.inf, False
     for _ in range(ROUNDS):
         duals, x, reduced = price_out(selection, pool, inside, search.clock)
-        rows = selection.rows
         value = duals.value(counts) + search.most_flights * min(0.0, reduced.min(initial=0.0))
         gap = target - value + MARGIN
+        if value <= target or before == -np.inf:  # beyond, the few flights left may have any prices
+            prices = RowDuals(duals, selection.rows).without_small(PRICE)
         keep = (reduced <= gap) & (gap > MARGIN)
         pool, reduced, inside = pool.kept(keep), reduced[keep], inside[keep]
         value = value if len(pool) else target
         prove(value)
         gain = value - before
         stalls = gain < (HELPFUL if len(pool) <= SATISFIED else BARELY) * gap
-        if len(pool) <= SMALL or _whole(x) or (stalls and larger):
+        if len(pool) <= few or _whole(x) or (stalls and larger):
             break
         larger, before = larger or gain < SLOW * gap, value
         x = _leave_out(selection, x, gap + MARGIN)
         selection.keep_rows(duals.penalty > PRICE)
         if not _add_violated(selection, x, larger, search.clock):
             break
-    matter = duals.penalty > PRICE
-    duals = replace(duals, penalty=duals.penalty[matter])
-    return Tightened(pool, reduced, duals, rows.kept(matter), value, selection, x)
+    return Tightened(pool, reduced, *prices, value, selection, x)
 
 
 def _selected(
