@@ -29,7 +29,7 @@ SMALL = 1500
 FIRST_PART, LARGER, SMALLER = 0.1, 2.0, 0.5
 """Part of the gap to begin with where the whole is too much, by what it grows, and by what it
 shrinks where even the first is too much."""
-SHARE = 0.6
+SHARE = 0.8
 """Part of the time left that a list is expected to take at most, told from the last two."""
 FILLED = 0.7
 """Part of the room for flights that the longest list is expected to take."""
