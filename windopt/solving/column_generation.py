@@ -39,6 +39,8 @@ ROUNDS = 2
 THOROUGH = 3
 """Times the first local search to search again each time flights are too many; every second time
 it begins anew."""
+LEAST_TIME = 1e-3
+"""What cuts are said to take at least [s]."""
 SOURCE = "column generation"
 
 
@@ -120,6 +122,7 @@ def _prove(search: Search, memory: float, seed: int) -> None:
     closing, effort = Closing(relaxation, seed + 2), float(EFFORT)
     # Labels are held while a few flights are planned anew, lists are not.
     replanning = Replanning(search, lambda few, start: _plan(few, start, memory / 2, seed), seed)
+    closing.between = replanning.improve
     narrowing, listed = True, relaxation.gap
     for attempt in count(1):
         in_parts = attempt > 1 and (not narrowing or relaxation.gap <= MUCH_NARROWER * listed)
@@ -137,7 +140,12 @@ def _prove(search: Search, memory: float, seed: int) -> None:
 
 
 def _narrow(closing: Closing, effort: int) -> bool:
-    """Cut until much less of the gap is left, or often enough; tell whether cuts help."""
+    """Cut until much less of the gap is left, or often enough, and tell whether that helps.
+
+    Returns
+    -------
+    Whether cuts help; ``closing`` keeps how fast they raised the bound.
+    """
     relaxation, clock = closing.relaxation, closing.search.clock
     before, began = relaxation.gap, clock.elapsed
     enough = NARROWER * before
@@ -151,7 +159,7 @@ def _narrow(closing: Closing, effort: int) -> bool:
         _enter(relaxation)
         if not closing.fix(effort):
             return False
-    closing.by_cuts = (before - relaxation.gap) / max(clock.elapsed - began, 1e-3)
+    closing.by_cuts = (before - relaxation.gap) / max(clock.elapsed - began, LEAST_TIME)
     return True
 
 

@@ -1,5 +1,9 @@
 """The clock: work in threads, and an end to it."""
 
+from concurrent.futures import ThreadPoolExecutor
+from threading import Barrier
+from time import sleep
+
 import pytest
 
 from windopt.solving.exact.clock import Clock, OutOfTime
@@ -22,7 +26,26 @@ def test_one_that_fails_stops_those_beside_it():
         while True:
             clock.check()
 
-    with Clock(60.0) as clock, pytest.raises(ValueError, match="a mistake"):
-        clock.side_by_side(work, [False, True])
-    with pytest.raises(OutOfTime):
+    with Clock(60.0) as clock:
+        clock.leaders = ThreadPoolExecutor(2)
+        with pytest.raises(ValueError, match="a mistake"):
+            clock.side_by_side(work, [False, True])
+        with pytest.raises(OutOfTime):
+            clock.check()
+
+
+def test_a_mistake_is_not_taken_for_the_end_of_time():
+    both_begun = Barrier(2)
+
+    def work(fails):
+        both_begun.wait(60.0)
+        if fails:
+            sleep(0.2)  # the other is the first to end
+            raise ValueError("a mistake")
+        clock.halt()
         clock.check()
+
+    with Clock(60.0) as clock:
+        clock.leaders = ThreadPoolExecutor(2)
+        with pytest.raises(ValueError, match="a mistake"):
+            clock.side_by_side(work, [False, True])

@@ -1,5 +1,6 @@
 """Closing the gap in parts."""
 
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from itertools import pairwise
 from threading import Barrier
@@ -83,6 +84,7 @@ def test_branching_alone_proves_the_same_optimum(small, always_tightened, branch
         instance = small.random_instance(seed)
         result = column_generation(instance, time_limit=20.0)
         assert result.objective == pytest.approx(small.optimum(instance), rel=1e-9)
+        assert result.bound == pytest.approx(result.objective, rel=1e-6)
     assert any(len(left) == 2 and min(left) > 0 for left in branches)
 
 
@@ -97,6 +99,7 @@ def test_the_lesser_bound_of_two_branches_stays_where_time_runs_out(small, monke
     monkeypatch.setattr(branching, "tighten", out_of_time)
     proved = []
     with Clock(60.0) as clock:
+        clock.leaders = ThreadPoolExecutor(2)
         search = Search(small.random_instance(412), clock)
         none = np.zeros(0, np.int32)
         pool = Pool(np.zeros(0), none, none, none, packed(np.zeros((0, search.n), bool)), [])
@@ -115,7 +118,7 @@ def in_parts(small, monkeypatch):
         parts.append(delta)
         took.append(1.0)
         closing.search.prove(fixing.value + delta)
-        closing.listed += (listing.Size(delta, 2 ** len(parts), 1),)
+        closing.listed += (listing.Size(delta, 100 * 4 ** len(parts), 1),)
         return True
 
     monkeypatch.setattr(Clock, "elapsed", property(lambda clock: sum(took)))
@@ -129,7 +132,13 @@ def in_parts(small, monkeypatch):
 
 def test_parts_grow_until_they_are_the_whole(in_parts):
     search, fixing, parts = in_parts
+    ahead = []
+    search.between = ahead.append
     assert search._close_parts(fixing, 1_000_000)
+    assert ahead[0] == 1.0
+    longer = (parts[2] - parts[1]) / (parts[1] - parts[0])
+    assert ahead[1] == pytest.approx(4.0**longer)
+    assert len(ahead) == len(parts) - 1
     assert parts[-1] == pytest.approx(search.search.objective - fixing.value)
     assert len(parts) > 2
 
@@ -142,9 +151,21 @@ def test_parts_are_left_where_cuts_raise_the_bound_much_faster(in_parts):
 
 
 def test_no_part_is_expected_to_take_much_of_the_time_left(in_parts):
-    search, _, _ = in_parts
-    search.listed = (listing.Size(10.0, 1000, 1), listing.Size(12.0, 2000, 1))
-    assert search._in_time(60.0 * closing.SHARE / 4.0) == pytest.approx(16.0)
+    search, fixing, parts = in_parts
+    search.search.clock.limit = 4.0
+    assert not search._close_parts(fixing, 1_000_000)
+    less, more, last = parts[:3]
+    expected = np.log(closing.SHARE * (4.0 - 2.0)) / np.log(4.0)
+    assert last == pytest.approx(more + expected * (more - less), abs=1e-6)
+    assert last < search.search.objective - fixing.value
+
+
+def test_no_time_left_is_the_end_of_it(in_parts):
+    search, fixing, parts = in_parts
+    search.search.clock.limit = 2.0
+    with pytest.raises(OutOfTime):
+        search._close_parts(fixing, 1_000_000)
+    assert len(parts) == 2
 
 
 @pytest.fixture

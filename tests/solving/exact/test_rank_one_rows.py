@@ -47,16 +47,6 @@ def test_bits_of_64_flights_count_as_one_by_one(family):
         assert reached == pytest.approx(wanted[:, row])
 
 
-def test_rows_without_others_are_told_once_each():
-    triples = Rows.subsets(np.array([[0, 1, 2], [3, 4, 5], [1, 2, 3], [3, 4, 5]]))
-    larger = Rows.of(np.array([[0, 1, 2, 3, 4]]), *FAMILIES[1])
-    others = triples.kept([2])
-    new = triples.joined(larger).without(others)
-    assert new.turbines.tolist() == [[0, 1, 2, 0, 0], [3, 4, 5, 0, 0], [0, 1, 2, 3, 4]]
-    assert new.weight.sum(axis=1).tolist() == [3, 3, 5]
-    assert others.without(triples).m == 0
-
-
 def test_a_ring_of_five_halves_is_cut_off():
     members = np.zeros((5, 7), bool)
     for i in range(5):

@@ -2,6 +2,7 @@
 
 from math import inf
 
+import highspy
 import numpy as np
 import pytest
 
@@ -87,4 +88,6 @@ def test_branches_are_probed_and_leave_no_trace():
         assert selection.value_with(without, counts, 0, clock) == pytest.approx(15.0)
         assert selection.value_with(keep, counts, 100, clock) == pytest.approx(15.0)
         after = selection.solve(clock)[0].value(counts)
-    assert before == after == pytest.approx(15.0)
+        assert before == after == pytest.approx(15.0)
+        limit = selection._program.model.getOptionValue("simplex_iteration_limit")[1]
+        assert limit == highspy.kHighsIInf

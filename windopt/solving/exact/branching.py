@@ -31,7 +31,7 @@ by side."""
 PAIRS = 6
 """Pairs of turbines to try branching on."""
 ITERATIONS = 100
-"""Of simplex to tell how much a branch raises the bound."""
+"""Of the dual simplex method at most to tell how much a branch raises the bound."""
 LEAST_GAIN = 1e-3
 """What a branch counts as raising the bound at least."""
 FRACTIONAL = 0.05
@@ -47,19 +47,15 @@ class Branch(NamedTuple):
     counts: Floats
 
 
-def branch(root: Tightened, counts: Floats, target: float, search: Search) -> Rows:
+def branch(root: Tightened, counts: Floats, target: float, search: Search) -> None:
     """Find the best plan cheaper than ``target`` over what is left of a pool, or prove it none.
 
     Parameters
     ----------
     counts
         Least and largest number of flights of each station, and of all, shape ``(k + 1, 2)``.
-
-    Returns
-    -------
-    Rank-one rows that matter in branches and not in the root.
     """
-    serial, rows = count(), root.rows.kept(np.zeros(0, np.intp))
+    serial = count()
     nodes = [(root.value, next(serial), root, counts)]
     proved = target
     while nodes:
@@ -84,16 +80,14 @@ def branch(root: Tightened, counts: Floats, target: float, search: Search) -> Ro
         children = _children(node, counts, wanted, search)
         if not children:  # the solution is a plan, made of a few flights of no reduced cost
             listed = staged_mip(node, counts, target, search, prove, to_the_end=True)
-            bound = max(bound, listed)
-            proved = min(proved, bound, wanted)
+            proved = min(proved, max(bound, listed), wanted)
+            continue
         for child, limits in _tightened(children, pool, reduced, node.rows, wanted, search, prove):
             left = max(child.value, bound)
             search.note("node with %d flights above %.3f", len(child.pool), left)
-            rows = rows.joined(child.rows)
             if len(child.pool):
                 heappush(nodes, (left, next(serial), child, limits))
     search.prove(min(proved, search.ceiling))
-    return rows.without(root.rows)
 
 
 def _tightened(

@@ -5,7 +5,7 @@ when time is up, and when the user interrupts, whom the waiting main thread can 
 """
 
 from collections.abc import Callable, Iterable
-from concurrent.futures import FIRST_EXCEPTION, ThreadPoolExecutor, wait
+from concurrent.futures import FIRST_EXCEPTION, Future, ThreadPoolExecutor, wait
 from math import inf
 from os import cpu_count
 from threading import Timer
@@ -24,6 +24,15 @@ POLL = 0.1
 
 class OutOfTime(Exception):  # noqa: N818  (a way out of nested loops, not a mistake)
     """The time limit was reached."""
+
+
+def _raise_mistake(future: "Future[Any]") -> None:
+    """Raise what ended a call, if that was not the end of time."""
+    if future.cancelled():
+        return
+    error = future.exception()
+    if error is not None and not isinstance(error, OutOfTime):
+        raise error
 
 
 class Clock:
@@ -99,11 +108,14 @@ class Clock:
                 done, pending = wait(pending, POLL, FIRST_EXCEPTION)
                 for future in done:
                     future.result()
-        except BaseException:
+        except BaseException as error:
             self.halt()
             for future in futures:
                 future.cancel()
             wait(futures)
+            if isinstance(error, OutOfTime):  # perhaps because a mistake has halted the clock
+                for future in futures:
+                    _raise_mistake(future)
             raise
         self.check()
         return [future.result() for future in futures]

@@ -6,13 +6,14 @@ shrinks, or prove value + delta; and the rows that tighten the program over thes
 a larger delta begins with.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from math import inf
 
 from windopt.solving.exact.branching import MOST, branch
 from windopt.solving.exact.enumeration import PAIRS, most_flights
 from windopt.solving.exact.fixing import MARGIN, Fixing
-from windopt.solving.exact.listing import Size, affordable, list_flights
+from windopt.solving.exact.listing import Size, affordable, list_flights, times_longer
 from windopt.solving.exact.local_search import improve
 from windopt.solving.exact.master import Duals
 from windopt.solving.exact.network import Floats
@@ -68,6 +69,8 @@ class Closing:
         The reduced cost up to which flights were too many last.
     listed
         Sizes of the lists since parts of the gap were last begun with.
+    between
+        Done between two lists, given the time that the second is expected to take [s].
     by_cuts
         By how much cuts raised the bound of the relaxation per second, zero where they no longer
         help.
@@ -81,6 +84,7 @@ class Closing:
     part: float = FIRST_PART
     too_wide: float = inf
     listed: tuple[Size, ...] = ()
+    between: Callable[[float], None] = lambda ahead: None
     by_cuts: float = 0.0
 
     @property
@@ -144,12 +148,13 @@ class Closing:
         search, part, failed, took = self.search, self.part, inf, inf
         self.listed = ()
         while True:
-            proved, whole = max(0.0, search.bound - fixing.value), search.ceiling - fixing.value
-            most = min(self._affordable(effort), self._in_time(took))
-            if most < min(WORTHWHILE * proved, whole):
-                return False
-            wanted = proved + part * (search.ceiling - search.bound)
-            delta = min(wanted, proved + SMALLER * (failed - proved), most)
+            search.clock.check()
+            delta = self._next(fixing, effort, part, failed, took)
+            if took < inf and delta > 0:
+                self.between(took * times_longer(self.listed, delta))
+                delta = self._next(fixing, effort, part, failed, took)
+            if not delta > 0:
+                return search.closed
             before, began = search.bound, search.clock.elapsed
             fits = self._search_within(delta, fixing, effort)
             if search.closed or (fits and delta >= search.ceiling - fixing.value):
@@ -159,11 +164,32 @@ class Closing:
                 return False
             if failed < inf:
                 return False
-            took = search.clock.elapsed - began
-            if fits and search.bound - before < SLOWER * self.by_cuts * took:
-                return False
+            if fits:
+                took = search.clock.elapsed - began
+                if search.bound - before < SLOWER * self.by_cuts * took:
+                    return False
             part = min(1.0, LARGER * part)
             failed = inf if fits else delta
+
+    def _next(self, fixing: Fixing, effort: int, part: float, failed: float, took: float) -> float:
+        """Return the gap of the next list, zero where none is worthwhile.
+
+        Parameters
+        ----------
+        part
+            Of what is left, to close.
+        failed
+            The gap whose flights were too many, infinite if none.
+        took
+            The time that the last list took [s].
+        """
+        search = self.search
+        proved, whole = max(0.0, search.bound - fixing.value), search.ceiling - fixing.value
+        most = min(self._affordable(effort), self._in_time(took))
+        if search.closed or most < min(WORTHWHILE * proved, whole):
+            return 0.0
+        wanted = proved + part * (search.ceiling - search.bound)
+        return min(wanted, proved + SMALLER * (failed - proved), most)
 
     def _affordable(self, effort: int) -> float:
         """Return the gap whose flights are expected to take much of the room and work for them."""
@@ -181,7 +207,7 @@ class Closing:
         if not self.listed:
             return inf
         more = SHARE * self.search.clock.left / took
-        return affordable(self.listed, inf, more * self.listed[-1].pairs)
+        return affordable(self.listed, inf, max(1.0, more * self.listed[-1].pairs))
 
     def _search_within(self, delta: float, fixing: Fixing, effort: int) -> bool:
         """Look for a plan of flights of a reduced cost up to ``delta``, unless they are too many.
@@ -214,7 +240,7 @@ class Closing:
             improve(search, self.seed, THOROUGH, self.relaxation.master.rounded())
         if len(tight.pool):
             search.note("%d flights left above %.3f", len(tight.pool), tight.value)
-            self.known = self.known.beside(branch(tight, counts, target, search))
+            branch(tight, counts, target, search)
 
     def _priced(self, pool: Pool, fixing: Fixing, delta: float) -> tuple[Pool, Floats, Rows]:
         """Return flights up to ``delta``, a guess at their reduced costs, and rows to begin with.

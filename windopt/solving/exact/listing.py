@@ -57,6 +57,17 @@ def affordable(sizes: Sequence[Size], flights: float, pairs: float) -> float:
     return max(more.delta, min(of_pairs, of_flights))
 
 
+def times_longer(sizes: Sequence[Size], delta: float) -> float:
+    """Return how many times the pairs of the last list one up to ``delta`` is expected to take."""
+    if len(sizes) < 2:
+        return 1.0
+    less, more = sizes[-2:]
+    if not (more.delta > less.delta and more.pairs > less.pairs):
+        return 1.0
+    times: float = (more.pairs / less.pairs) ** ((delta - more.delta) / (more.delta - less.delta))
+    return times
+
+
 def _extrapolated(less: float, few: int, more: float, many: int, number: float) -> float:
     """Return where there are ``number``, if ``few`` up to ``less`` and ``many`` up to ``more``."""
     if not (more > less and many > few):

@@ -91,13 +91,6 @@ class Rows(NamedTuple):
         """Return these rows and others."""
         return Rows(*(np.concatenate(pair) for pair in zip(self, other, strict=True)))
 
-    def without(self, other: "Rows") -> "Rows":
-        """Return each of these rows that is none of ``other``, once."""
-        turbines, weight, divisor, _ = other.joined(self)
-        told = np.column_stack([turbines, weight, divisor])
-        first = np.unique(told, axis=0, return_index=True)[1]
-        return self.kept(np.sort(first[first >= other.m]) - other.m)
-
     def coefficients(self, members: Bools) -> Floats:
         """Return the coefficient of each flight in each row, shape ``(flights, m)``.
 

@@ -88,8 +88,13 @@ class Replanning:
         self._near = np.argsort(distance, axis=1, kind="stable")
         self._random = np.random.default_rng(self.seed)
 
-    def improve(self) -> None:
+    def improve(self, ahead: float = 0.0) -> None:
         """Plan parts anew while there is time for it, and until the best plan is found again.
+
+        Parameters
+        ----------
+        ahead
+            Time for which there will be no other occasion [s]; it has its share as well.
 
         Raises
         ------
@@ -101,7 +106,7 @@ class Replanning:
         search, clock = self.search, self.search.clock
         if search.n <= SIZES[-1]:
             return  # the whole is no more than a part
-        while search.found and not search.closed and self.spent < SHARE * clock.elapsed:
+        while search.found and not search.closed and self.spent < SHARE * (clock.elapsed + ahead):
             began = clock.elapsed
             if search.objective < self.known - CLOSED:
                 self._take(search.flights)

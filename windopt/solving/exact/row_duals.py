@@ -21,11 +21,6 @@ class RowDuals(NamedTuple):
         keep = self.duals.penalty > least
         return RowDuals(replace(self.duals, penalty=self.duals.penalty[keep]), self.rows.kept(keep))
 
-    def beside(self, rows: Rows) -> "RowDuals":
-        """Return the same duals of these and more rows, which have no price."""
-        penalty = np.append(self.duals.penalty, np.zeros(rows.m))
-        return RowDuals(replace(self.duals, penalty=penalty), self.rows.joined(rows))
-
     def reduced_cost(self, station: int, path: Path, time: float) -> float:
         """Return the reduced cost of a flight without cycles.
 

@@ -103,9 +103,11 @@ class Selection:
         iterations
             Of the dual simplex, after which the value reached so far is returned.
         """
-        clock.check()
         model = self._program.model
+        if not model.getBasis().valid:  # rows or flights have left it since
+            clock.run(model)
         basis = model.getBasis()
+        clock.check()
         rows = np.arange(self.n, self.n + len(counts), dtype=np.int32)
         dropped = (self.n + np.flatnonzero(~keep)).astype(np.int32)
         nothing = np.zeros(len(dropped))

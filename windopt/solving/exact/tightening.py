@@ -51,8 +51,8 @@ class Tightened:
     pool
         Empty where the bound has reached its target.
     duals, rows
-        The prices that prove the bound, and no more, and the rank-one rows that matter, one to a
-        penalty.
+        The last prices that did not exceed the target, and the rank-one rows that matter, one to a
+        penalty. They prove the bound where flights are left.
     value
         The bound.
     selection, x
@@ -115,7 +115,7 @@ def tighten(
         duals, x, reduced = price_out(selection, pool, inside, search.clock)
         value = duals.value(counts) + search.most_flights * min(0.0, reduced.min(initial=0.0))
         gap = target - value + MARGIN
-        if value <= target or before == -np.inf:  # beyond, the few flights left may have any prices
+        if value <= target or before == -np.inf:  # beyond, the program has too few flights
             prices = RowDuals(duals, selection.rows).without_small(PRICE)
         keep = (reduced <= gap) & (gap > MARGIN)
         pool, reduced, inside = pool.kept(keep), reduced[keep], inside[keep]
