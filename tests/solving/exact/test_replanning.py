@@ -68,6 +68,16 @@ def test_it_ends_when_a_plan_from_scratch_is_the_best_again(search):
     assert replanned.from_scratch == before
 
 
+def test_time_that_has_no_other_occasion_counts_before_it_passes(search, monkeypatch):
+    monkeypatch.setattr(replanning, "SHARE", 0.33)
+    replanned = Replanning(search, solve, 0, spent=1e3)
+    before = search.objective
+    replanned.improve()
+    assert search.objective == before
+    replanned.improve(ahead=1e4)
+    assert search.objective < before
+
+
 @pytest.fixture
 def asked():
     """Return searches and flights that were handed to a method that finds nothing better."""
