@@ -53,12 +53,18 @@ def test_a_crowded_set_is_entered_as_often_as_it_needs():
     assert reduced[flown[2:] > 1e-9] == pytest.approx(0.0)
 
 
-def test_rows_without_a_price_may_go():
+def three_pairs_and_all():
+    """Return a program over flights to each two of three turbines and to all, and its counts."""
     members = np.array([[1, 1, 0], [0, 1, 1], [1, 0, 1], [1, 1, 1]], bool)
     counts = np.tile([0.0, inf], (3, 1))
     none = Rows.subsets(np.zeros((0, 3), np.int64))
     selection = Selection(3, counts, none, np.full(3, 50.0), 50.0, CrowdedSets.none(3))
     selection.add(pool(members, [10.0, 10.0, 10.0, 18.0], [0, 1, 0, 1]))
+    return selection, counts
+
+
+def test_rows_without_a_price_may_go():
+    selection, counts = three_pairs_and_all()
     with Clock(60.0) as clock:
         before = selection.solve(clock)[0].value(counts)
         selection.cut(Rows.subsets(np.array([[0, 1, 2], [0, 1, 2]])))
@@ -71,11 +77,7 @@ def test_rows_without_a_price_may_go():
 
 
 def test_branches_are_probed_and_leave_no_trace():
-    members = np.array([[1, 1, 0], [0, 1, 1], [1, 0, 1], [1, 1, 1]], bool)
-    counts = np.tile([0.0, inf], (3, 1))
-    none = Rows.subsets(np.zeros((0, 3), np.int64))
-    selection = Selection(3, counts, none, np.full(3, 50.0), 50.0, CrowdedSets.none(3))
-    selection.add(pool(members, [10.0, 10.0, 10.0, 18.0], [0, 1, 0, 1]))
+    selection, counts = three_pairs_and_all()
     one = counts.copy()
     one[-1, 1] = 1.0
     keep = np.ones(len(selection.members), bool)
